@@ -1,0 +1,12 @@
+# One place for how every target of ours is compiled.
+function(nephroid_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wpedantic)
+  if(NEPHROID_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(NEPHROID_SANITIZE)
+    target_compile_options(${target} PUBLIC -fsanitize=${NEPHROID_SANITIZE} -fno-omit-frame-pointer
+                                            -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${NEPHROID_SANITIZE})
+  endif()
+endfunction()

@@ -1,0 +1,27 @@
+# nephroid_shaders(TARGET file.comp ...): compiles GLSL to SPIR-V at build time and embeds it as C++ arrays.
+# A shader src/a/b_c.comp is reached as nephroid::shaders::b_c_comp (std::span<const uint32_t>) from "shaders/b_c_comp.h".
+find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+
+function(nephroid_shaders target)
+  set(generated ${CMAKE_BINARY_DIR}/generated)
+  file(MAKE_DIRECTORY ${generated}/shaders)
+  foreach(source ${ARGN})
+    get_filename_component(path ${source} ABSOLUTE)
+    get_filename_component(name ${source} NAME)
+    string(REPLACE "." "_" symbol ${name})
+    set(words ${generated}/shaders/${symbol}.words)
+    set(header ${generated}/shaders/${symbol}.h)
+    add_custom_command(
+      OUTPUT ${header}
+      COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -g0 -I${PROJECT_SOURCE_DIR}/src -x -o ${words}
+              --depfile ${words}.d ${path}
+      COMMAND ${CMAKE_COMMAND} -DWORDS=${words} -DHEADER=${header} -DSYMBOL=${symbol}
+              -P ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
+      DEPENDS ${path} ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
+      DEPFILE ${words}.d
+      COMMENT "Shader ${name}"
+      VERBATIM)
+    target_sources(${target} PRIVATE ${header})
+  endforeach()
+  target_include_directories(${target} PRIVATE ${generated})
+endfunction()

@@ -1,0 +1,17 @@
+// A beam (illumination volume): the light between three outgoing rays.
+#ifndef NEPHROID_BEAMS_BEAM_H
+#define NEPHROID_BEAMS_BEAM_H
+
+#include "core/shared_language.h"
+
+SHARED_BEGIN
+
+struct Beam {
+  vec3 position[3];   // m, where its corner rays leave the caster
+  vec3 direction[3];  // unit
+  vec3 flux;          // lm it carries, the same through every cross-section
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,45 @@
+// What lets one file be C++ and GLSL: maths and structs included from both are written between SHARED_BEGIN and SHARED_END,
+// with functions marked SHARED_FUNCTION and results OUT(type) / INOUT(type). Structs are laid out as GLSL `scalar`.
+#ifndef NEPHROID_CORE_SHARED_LANGUAGE_H
+#define NEPHROID_CORE_SHARED_LANGUAGE_H
+
+#ifdef __cplusplus
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace nephroid {
+using glm::ivec2;
+using glm::ivec3;
+using glm::mat3;
+using glm::mat4;
+using glm::quat;
+using glm::uvec2;
+using glm::uvec3;
+using glm::uvec4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using uint = std::uint32_t;
+}  // namespace nephroid
+
+#define SHARED_BEGIN namespace nephroid {
+#define SHARED_END }
+#define SHARED_FUNCTION inline
+#define SHARED_CONSTANT inline constexpr
+#define OUT(type) type&
+#define INOUT(type) type&
+
+#else
+
+#define SHARED_BEGIN
+#define SHARED_END
+#define SHARED_FUNCTION
+#define SHARED_CONSTANT const
+#define OUT(type) out type
+#define INOUT(type) inout type
+
+#endif
+
+#endif

@@ -1,0 +1,155 @@
+// What exists: plain structs that refer to each other by index. Metres, degrees, seconds; right-handed, +Y up; linear Rec. 709.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/shared_language.h"
+
+namespace nephroid {
+
+inline constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+
+struct Camera {
+  vec3 position{0, 0, 4};
+  vec3 target{0};
+  vec3 up{0, 1, 0};
+  float verticalFov = 40;  // degrees, whole angle
+  float exposure = 1;      // multiplies luminance before tone mapping
+};
+
+struct Environment {
+  vec3 ambient{0};     // lux, on every receiver, from all around
+  vec3 background{0};  // nit
+};
+
+// Linear Rec. 709 RGBA, row 0 at the top; texture coordinate (0, 0) is the upper left corner, as in glTF.
+struct Texture {
+  std::string name;
+  uint32_t width = 0;
+  uint32_t height = 0;
+  std::vector<vec4> texels;
+};
+
+enum class MaterialType { diffuse, dielectric, mirror };
+
+struct Material {
+  std::string name;
+  MaterialType type = MaterialType::diffuse;
+  vec3 color{0.8f};                // reflectance of a diffuse surface or a mirror
+  uint32_t colorTexture = kNone;   // multiplies `color`
+  vec3 emission{0};                // nit
+  vec3 ior{1.5f};                  // per channel; equal channels: no dispersion
+  float dispersion = 0;            // 20 / Abbe number (KHR_materials_dispersion); `ior` already follows from it
+  vec3 attenuationColor{1};        // what is left after attenuationDistance
+  float attenuationDistance = std::numeric_limits<float>::infinity();  // m
+  bool thinWalled = false;         // glTF transmission without a volume: light passes straight through, so no caustic
+  bool isCaster() const { return type != MaterialType::diffuse; }
+  bool isDispersive() const { return ior.x != ior.y || ior.y != ior.z; }
+  float inverseAttenuationDistance() const { return attenuationDistance > 0 ? 1 / attenuationDistance : 0; }
+};
+
+// Triangles in the object's own space, counter-clockwise from outside. All arrays but `triangles` are per vertex.
+struct Mesh {
+  std::string name;
+  std::vector<vec3> positions;   // m
+  std::vector<vec3> normals;     // unit, exact for shapes; averaged by area from the faces where a file has none
+  std::vector<vec2> texcoords;   // empty when there are none
+  std::vector<uvec3> triangles;
+  bool isClosed = false;         // every edge has two faces after joining equal positions
+};
+
+// A rigid motion and a uniform scale; anything else is baked into the mesh when it is loaded, so that what is computed for a
+// mesh (a light transport table) holds wherever it stands.
+struct Placement {
+  vec3 translation{0};
+  quat rotation{1, 0, 0, 0};
+  float scale = 1;
+  vec3 point(vec3 p) const { return rotation * (scale * p) + translation; }
+  vec3 direction(vec3 d) const { return rotation * d; }
+  vec3 inversePoint(vec3 p) const { return glm::conjugate(rotation) * (p - translation) / scale; }
+  vec3 inverseDirection(vec3 d) const { return glm::conjugate(rotation) * d; }
+};
+
+struct Wave {
+  float amplitude = 0;   // m
+  float wavelength = 1;  // m
+  vec2 direction{1, 0};  // in (x, z)
+  float speed = 0;       // m/s
+  float phase = 0;       // radians
+};
+
+// The height field behind a mesh of the shape "water": y = sum of amplitude sin(2 pi / wavelength (direction . (x, z) - speed t) + phase).
+struct Water {
+  vec2 size{1, 1};  // m
+  uvec2 grid{2, 2}; // vertices along x and z
+  std::vector<Wave> waves;
+};
+
+struct Object {
+  std::string name;
+  uint32_t mesh = 0;
+  uint32_t material = 0;
+  Placement placement;
+  std::optional<Water> water;
+};
+
+enum class LightType { directional, point, spot, line };
+
+struct Light {
+  std::string name;
+  LightType type = LightType::point;
+  vec3 position{0};             // point, spot; one end of a line
+  vec3 end{0};                  // the other end of a line
+  vec3 direction{0, -1, 0};     // unit, the way the light travels
+  vec3 intensity{1};            // cd; of the whole tube for a line
+  vec3 illuminance{1};          // lux on a facing surface (directional)
+  float innerAngle = 0;         // degrees, half angle of full intensity (spot)
+  float outerAngle = 45;        // degrees, half angle of none
+  uint32_t samples = 8;         // points a line is replaced by
+  std::filesystem::path gobo;   // image in front of a spot; empty for none
+  std::filesystem::path ies;    // LM-63 profile; empty for none
+};
+
+enum class PhaseType { isotropic, henyeyGreenstein, nishita };
+
+struct Medium {
+  float extinction = 0;  // 1/m
+  float albedo = 0;      // scattering over extinction
+  PhaseType phase = PhaseType::isotropic;
+  float g = 0;           // Henyey-Greenstein
+};
+
+// An illuminance meter. Texel (column i, row j) spans u (i..i+1)/width and v (j..j+1)/height from `corner`; faces cross(v, u).
+struct Sensor {
+  std::string name;
+  vec3 corner{0};
+  vec3 u{1, 0, 0};
+  vec3 v{0, 0, 1};
+  uvec2 resolution{256, 256};
+  vec3 normal() const { return glm::normalize(glm::cross(v, u)); }
+};
+
+struct Scene {
+  std::filesystem::path file;
+  double time = 0;  // s; what moves by itself stands as it is at this time
+  Camera camera;
+  Environment environment;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Object> objects;
+  std::vector<Light> lights;
+  std::optional<Medium> medium;
+  std::vector<Sensor> sensors;
+
+  const Material& materialOf(const Object& object) const { return materials[object.material]; }
+  const Mesh& meshOf(const Object& object) const { return meshes[object.mesh]; }
+  bool isCaster(const Object& object) const { return materialOf(object).isCaster(); }
+};
+
+}  // namespace nephroid
