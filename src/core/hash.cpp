@@ -1,0 +1,27 @@
+#include "core/hash.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace nephroid {
+
+struct Hasher::State {
+  XXH3_state_t xxh3;
+};
+
+uint64_t hashBytes(std::span<const std::byte> bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+Hasher::Hasher() : state_(std::make_unique<State>()) {
+  XXH3_64bits_reset(&state_->xxh3);
+}
+Hasher::~Hasher() = default;
+void Hasher::add(std::span<const std::byte> bytes) {
+  XXH3_64bits_update(&state_->xxh3, bytes.data(), bytes.size());
+}
+uint64_t Hasher::value() const {
+  return XXH3_64bits_digest(&state_->xxh3);
+}
+
+}  // namespace nephroid

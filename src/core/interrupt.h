@@ -1,0 +1,11 @@
+// Ctrl-C and SIGTERM: asked for once, work is unwound by an Interrupted exception; asked for twice, the
+// process ends.
+#pragma once
+
+namespace nephroid {
+
+void catchInterrupts();
+bool isInterrupted();
+void throwIfInterrupted();
+
+}  // namespace nephroid

@@ -1,0 +1,58 @@
+#include <png.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/image_io.h"
+
+namespace nephroid {
+namespace {
+
+constexpr uint32_t kMaximumSide = 1u << 15;
+
+// libpng's own memory, freed whatever is thrown.
+struct PngImage : png_image {
+  PngImage() : png_image{} { version = PNG_IMAGE_VERSION; }
+  ~PngImage() { png_image_free(this); }
+  PngImage(const PngImage&) = delete;
+  PngImage& operator=(const PngImage&) = delete;
+};
+
+}  // namespace
+
+void writePng(const std::filesystem::path& path, const ByteImage& image) {
+  AtomicFile file(path);
+  PngImage png;
+  png.width = image.width;
+  png.height = image.height;
+  png.format = image.components == 4 ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  if (!png_image_write_to_file(&png, file.temporary().c_str(), 0, image.bytes.data(), 0, nullptr))
+    throw RuntimeFailure("cannot write '" + path.string() + "': " + png.message);
+  file.commit();
+}
+
+ByteImage readPng(const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& reason) {
+    throw InputError("cannot read '" + path.string() + "' as PNG: " + reason);
+  };
+  PngImage png;
+  if (!png_image_begin_read_from_file(&png, path.c_str())) fail(png.message);
+  if (png.width > kMaximumSide || png.height > kMaximumSide) fail("no side may be longer than 32768 pixels");
+  png.format = PNG_FORMAT_RGBA;
+  ByteImage image{png.width, png.height, 4, std::vector<uint8_t>(PNG_IMAGE_SIZE(png))};
+  if (!png_image_finish_read(&png, nullptr, image.bytes.data(), 0, nullptr)) fail(png.message);
+  return image;
+}
+
+float linearFromSrgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+float srgbFromLinear(float linear) {
+  return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+}  // namespace nephroid

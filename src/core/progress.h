@@ -1,0 +1,52 @@
+// What a long step shows of itself: a bar with the time left, on standard error. It is also where Ctrl-C is
+// noticed.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+namespace nephroid {
+
+// One is passed by reference to whatever takes long. Default-made it shows nothing.
+class Progress {
+ public:
+  enum class Display { none, bar };
+
+  Progress() = default;
+  explicit Progress(Display display) : isShown_(display == Display::bar) {}
+  ~Progress() { finish(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  // A step of `total` equal parts starts, in place of the one before. `name` is what a user reads: "light
+  // transport table".
+  void begin(std::string name, uint64_t total);
+  // `count` more parts are done. From any thread. Throws Interrupted after Ctrl-C.
+  void advance(uint64_t count = 1);
+  // The step is over: its bar is wiped.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void draw(uint64_t done, Clock::time_point now);
+
+  bool isShown_ = false;
+  bool isDrawn_ = false;
+  std::string name_;
+  uint64_t total_ = 0;
+  std::atomic<uint64_t> done_{0};
+  Clock::time_point start_;
+  Clock::time_point lastDrawn_;
+  std::mutex drawing_;
+};
+
+// A bar where standard error is a terminal and the user did not ask for quiet.
+Progress::Display progressDisplay(bool isQuiet);
+
+// "45 s", "3 min 20 s", "2 h 05 min".
+std::string describeDuration(double seconds);
+
+}  // namespace nephroid
