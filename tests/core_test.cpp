@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -15,6 +16,7 @@
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "core/stats.h"
 #include "temporary_folder.h"
 
 namespace nephroid {
@@ -99,6 +101,24 @@ TEST(Progress, SaysDurationsAsPeopleDo) {
   EXPECT_EQ(describeDuration(0.2), "1 s");
   EXPECT_EQ(describeDuration(200), "3 min 20 s");
   EXPECT_EQ(describeDuration(7500), "2 h 05 min");
+}
+
+TEST(Stats, AreTheDocumentedFields) {
+  const Stats stats{"llvmpipe \xff", "none", "traced", 12.5, 3, {{"shade", 2.5}}, {{"beams", 7}}, 1024};
+  const auto json = nlohmann::json::parse(statsJson(stats));
+  EXPECT_EQ(json["prepare_ms"], 12.5);
+  EXPECT_EQ(json["frame_ms"], 3);
+  EXPECT_EQ(json["passes"][0]["name"], "shade");
+  EXPECT_EQ(json["passes"][0]["ms"], 2.5);
+  EXPECT_EQ(json["counts"]["beams"], 7);
+  EXPECT_EQ(json["memory_bytes"], 1024);
+  EXPECT_EQ(json.size(), 8u);
+}
+
+TEST(Stats, MedianIsTheMiddle) {
+  EXPECT_EQ(median({3, 1, 2}), 2);
+  EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
+  EXPECT_EQ(median({}), 0);
 }
 
 // In a process of its own, since being interrupted is for good.

@@ -1,0 +1,34 @@
+#include "core/stats.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace nephroid {
+
+std::string statsJson(const Stats& stats) {
+  using Json = nlohmann::ordered_json;
+  Json passes = Json::array();
+  for (const PassTime& pass : stats.passes)
+    passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
+  Json counts = Json::object();
+  for (const auto& [name, count] : stats.counts) counts[name] = count;
+  const Json document = {{"device", stats.device},
+                         {"technique", stats.technique},
+                         {"source", stats.source},
+                         {"prepare_ms", stats.prepareMilliseconds},
+                         {"frame_ms", stats.frameMilliseconds},
+                         {"passes", passes},
+                         {"counts", counts},
+                         {"memory_bytes", stats.memoryBytes}};
+  // A driver's name may hold bytes that are not UTF-8; they are replaced rather than refused.
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,36 @@
+// What a run reports of itself: the object behind `--stats FILE.json`.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nephroid {
+
+struct PassTime {
+  std::string name;
+  double milliseconds = 0;
+};
+
+struct Stats {
+  std::string device;              // what drew, as its driver names it
+  std::string technique;           // "illumination-textures", "none"
+  std::string source;              // "table", "traced"
+  double prepareMilliseconds = 0;  // once: loading, tables, what a moved light leaves as it is
+  double frameMilliseconds = 0;    // median over the frames; all that a moved light would change
+  std::vector<PassTime> passes;    // of the median frame, in the order they ran
+  std::vector<std::pair<std::string, uint64_t>>
+      counts;                // "vertices", "beams", "rays": as many as there is to tell
+  uint64_t memoryBytes = 0;  // on the device
+};
+
+// {"device", "technique", "source", "prepare_ms", "frame_ms", "passes": [{"name", "ms"}], "counts": {...},
+// "memory_bytes"}
+std::string statsJson(const Stats& stats);
+
+// The middle value; the mean of the middle two where their number is even; 0 of none.
+double median(std::vector<double> values);
+
+}  // namespace nephroid

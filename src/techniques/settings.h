@@ -1,0 +1,54 @@
+// Everything a user may choose about how caustics are made. The member initialisers are the defaults; the
+// lists below give each its flag, range and help, so that the command line is made from them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace nephroid {
+
+enum class Technique { illuminationTextures, none };
+enum class Source { table, traced };
+enum class Paths { transmission, all };
+
+// In the order of the enumerators.
+inline constexpr std::array<const char*, 2> kTechniqueNames{"illumination-textures", "none"};
+inline constexpr std::array<const char*, 2> kSourceNames{"table", "traced"};
+inline constexpr std::array<const char*, 2> kPathsNames{"transmission", "all"};
+
+struct TechniqueSettings {
+  Technique technique = Technique::illuminationTextures;
+  Source source = Source::table;
+  Paths paths = Paths::transmission;
+  uint32_t planes = 4;         // virtual planes; 0: a single one, in the sensor's own plane
+  uint32_t textureSize = 512;  // texels along a side of a virtual plane
+  uint32_t directions = 129;   // per vertex of a light transport table
+  uint32_t refineDepth = 3;    // times a beam may be halved along its edges
+};
+
+inline const char* nameOf(Technique technique) {
+  return kTechniqueNames[static_cast<std::size_t>(technique)];
+}
+inline const char* nameOf(Source source) {
+  return kSourceNames[static_cast<std::size_t>(source)];
+}
+inline const char* nameOf(Paths paths) {
+  return kPathsNames[static_cast<std::size_t>(paths)];
+}
+
+// A number among the settings.
+struct SettingField {
+  const char* flag;  // without its dashes
+  const char* help;
+  uint32_t TechniqueSettings::*member;
+  uint32_t minimum;
+  uint32_t maximum;
+  const char*
+      zeroWord;  // what a user writes for 0 where a sensor is measured; null where there is no such word
+};
+
+std::span<const SettingField> settingFields();
+
+}  // namespace nephroid
