@@ -5,21 +5,19 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string_view>
+#include <string>
 
 namespace nephroid {
 
-enum class Technique { illuminationTextures, none };
 enum class Source { table, traced };
 enum class Paths { transmission, all };
 
 // In the order of the enumerators.
-inline constexpr std::array<const char*, 2> kTechniqueNames{"illumination-textures", "none"};
 inline constexpr std::array<const char*, 2> kSourceNames{"table", "traced"};
 inline constexpr std::array<const char*, 2> kPathsNames{"transmission", "all"};
 
 struct TechniqueSettings {
-  Technique technique = Technique::illuminationTextures;
+  std::string technique = "illumination-textures";  // a name of the registry
   Source source = Source::table;
   Paths paths = Paths::transmission;
   uint32_t planes = 4;         // virtual planes; 0: a single one, in the sensor's own plane
