@@ -26,9 +26,6 @@ struct TechniqueSettings {
   uint32_t refineDepth = 3;    // times a beam may be halved along its edges
 };
 
-inline const char* nameOf(Technique technique) {
-  return kTechniqueNames[static_cast<std::size_t>(technique)];
-}
 inline const char* nameOf(Source source) {
   return kSourceNames[static_cast<std::size_t>(source)];
 }
