@@ -1,5 +1,6 @@
-// What lets one file be C++ and GLSL: maths and structs included from both are written between SHARED_BEGIN and SHARED_END,
-// with functions marked SHARED_FUNCTION and results OUT(type) / INOUT(type). Structs are laid out as GLSL `scalar`.
+// What lets one file be C++ and GLSL: maths and structs included from both are written between SHARED_BEGIN
+// and SHARED_END, with functions marked SHARED_FUNCTION and results OUT(type) / INOUT(type). Structs are laid
+// out as GLSL `scalar`.
 #ifndef NEPHROID_CORE_SHARED_LANGUAGE_H
 #define NEPHROID_CORE_SHARED_LANGUAGE_H
 
@@ -10,11 +11,22 @@
 #include <glm/gtc/quaternion.hpp>
 
 namespace nephroid {
+using glm::abs;
+using glm::clamp;
+using glm::cross;
+using glm::dot;
 using glm::ivec2;
 using glm::ivec3;
+using glm::length;
 using glm::mat3;
 using glm::mat4;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::normalize;
+using glm::pow;
 using glm::quat;
+using glm::sqrt;
 using glm::uvec2;
 using glm::uvec3;
 using glm::uvec4;

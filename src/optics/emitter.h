@@ -1,0 +1,46 @@
+// A light reduced to what is sampled: a point, a cone of one, or a direction. Lines are several points.
+#ifndef NEPHROID_OPTICS_EMITTER_H
+#define NEPHROID_OPTICS_EMITTER_H
+
+#include "core/shared_language.h"
+
+SHARED_BEGIN
+
+SHARED_CONSTANT uint kEmitterDirectional = 0u;
+SHARED_CONSTANT uint kEmitterPoint = 1u;
+SHARED_CONSTANT uint kEmitterSpot = 2u;
+
+struct Emitter {
+  vec3 position;    // m (point, spot)
+  uint type;        // kEmitter...
+  vec3 direction;   // unit, the way the light travels (directional, spot)
+  float coneScale;  // falloff of KHR_lights_punctual: clamp(cos(angle) * coneScale + coneOffset, 0, 1)^2
+  vec3 power;       // cd (point, spot) or lux on a facing surface (directional)
+  float coneOffset;
+};
+
+// Unit vector the light travels along at `point`.
+SHARED_FUNCTION vec3 emitterDirection(Emitter emitter, vec3 point) {
+  if (emitter.type == kEmitterDirectional) return emitter.direction;
+  return normalize(point - emitter.position);
+}
+
+// cd toward the unit vector `direction`, or lux for a directional light.
+SHARED_FUNCTION vec3 emitterPower(Emitter emitter, vec3 direction) {
+  if (emitter.type != kEmitterSpot) return emitter.power;
+  float falloff =
+      clamp(dot(emitter.direction, direction) * emitter.coneScale + emitter.coneOffset, 0.0f, 1.0f);
+  return emitter.power * (falloff * falloff);
+}
+
+// Illuminance (lux) at `point` on a surface facing the light.
+SHARED_FUNCTION vec3 emitterIlluminance(Emitter emitter, vec3 point) {
+  if (emitter.type == kEmitterDirectional) return emitter.power;
+  vec3 offset = point - emitter.position;
+  float distanceSquared = dot(offset, offset);
+  return emitterPower(emitter, offset / sqrt(distanceSquared)) / distanceSquared;
+}
+
+SHARED_END
+
+#endif

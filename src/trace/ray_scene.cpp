@@ -1,0 +1,248 @@
+#include "trace/ray_scene.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
+#include <atomic>
+
+#include "core/error.h"
+#include "trace/smooth_patches.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace nephroid {
+namespace {
+
+constexpr float kSelfIntersectionFraction =
+    1e-5f;  // of the scene's extent: some fifty times float's rounding there
+
+#if RTC_VERSION_MAJOR >= 4
+void embreeIntersect(RTCScene scene, RTCRayHit& query) {
+  rtcIntersect1(scene, &query);
+}
+void embreeOccluded(RTCScene scene, RTCRay& ray) {
+  rtcOccluded1(scene, &ray);
+}
+#else
+void embreeIntersect(RTCScene scene, RTCRayHit& query) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &query);
+}
+void embreeOccluded(RTCScene scene, RTCRay& ray) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &ray);
+}
+#endif
+
+struct alignas(64) RayCounter {
+  std::atomic<uint64_t> count{0};
+};
+
+oneapi::tbb::enumerable_thread_specific<RayCounter>& rayCounters() {
+  static oneapi::tbb::enumerable_thread_specific<RayCounter> counters;
+  return counters;
+}
+
+void countRay() {
+  thread_local RayCounter& counter = rayCounters().local();
+  counter.count.store(counter.count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+}
+
+RTCRay embreeRay(const Ray& ray) {
+  RTCRay query{};
+  query.org_x = ray.origin.x;
+  query.org_y = ray.origin.y;
+  query.org_z = ray.origin.z;
+  query.dir_x = ray.direction.x;
+  query.dir_y = ray.direction.y;
+  query.dir_z = ray.direction.z;
+  query.tnear = ray.nearDistance;
+  query.tfar = ray.farDistance;
+  query.mask = ~0u;
+  return query;
+}
+
+RTCRayHit embreeQuery(const Ray& ray) {
+  RTCRayHit query{};
+  query.ray = embreeRay(ray);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+struct DeviceRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneRelease {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease>;
+using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
+
+}  // namespace
+
+struct RayScene::Impl {
+  struct TracedMesh {
+    const Mesh* mesh;
+    std::vector<uint32_t> patches;
+    SceneHandle scene;
+  };
+  struct TracedObject {
+    uint32_t mesh;
+    Placement placement;
+  };
+
+  DeviceHandle device{rtcNewDevice(nullptr)};
+  std::vector<TracedMesh> meshes;
+  std::vector<TracedObject> objects;
+  SceneHandle top;  // instances of the meshes; none for a scene of one mesh in its own space
+  std::vector<RTCGeometry> instances;  // owned by `top`
+  float extent = 0;                    // m, largest absolute coordinate
+
+  Impl() {
+    if (!device) throw RuntimeFailure("Embree could not make a device");
+  }
+
+  void addMesh(const Mesh& mesh) {
+    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.positions.size()));
+    auto* indices = static_cast<uvec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(uvec3), mesh.triangles.size()));
+    if (!vertices || !indices)
+      throw RuntimeFailure("out of memory for the acceleration structure of " + mesh.name);
+    std::copy(mesh.positions.begin(), mesh.positions.end(), vertices);
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), indices);
+    rtcCommitGeometry(geometry);
+    SceneHandle scene(rtcNewScene(device.get()));
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcAttachGeometry(scene.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene.get());
+    meshes.push_back({&mesh, smoothPatches(mesh), std::move(scene)});
+  }
+
+  RTCScene root() const { return top ? top.get() : meshes[0].scene.get(); }
+
+  void updateExtent() {
+    RTCBounds bounds;
+    rtcGetSceneBounds(root(), &bounds);
+    const vec3 lower(bounds.lower_x, bounds.lower_y, bounds.lower_z);
+    const vec3 upper(bounds.upper_x, bounds.upper_y, bounds.upper_z);
+    const vec3 largest = glm::max(glm::abs(lower), glm::abs(upper));
+    extent = std::max({largest.x, largest.y, largest.z});
+  }
+
+  void describe(const RTCRayHit& query, Hit& hit) const {
+    hit.object = top ? query.hit.instID[0] : 0;
+    const TracedObject& object = objects[hit.object];
+    const TracedMesh& traced = meshes[object.mesh];
+    const Mesh& mesh = *traced.mesh;
+    hit.distance = query.ray.tfar;
+    hit.triangle = query.hit.primID;
+    hit.barycentric = {query.hit.u, query.hit.v};
+    hit.patch = traced.patches[hit.triangle];
+    const uvec3& corners = mesh.triangles[hit.triangle];
+    const vec3 weights(1 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
+    const vec3& a = mesh.positions[corners.x];
+    const vec3& b = mesh.positions[corners.y];
+    const vec3& c = mesh.positions[corners.z];
+    hit.geometricNormal = object.placement.direction(glm::normalize(glm::cross(b - a, c - a)));
+    const mat3 normals(mesh.normals[corners.x], mesh.normals[corners.y], mesh.normals[corners.z]);
+    hit.normal = object.placement.direction(glm::normalize(normals * weights));
+    // From the triangle rather than along the ray: nearer to the surface when the ray is long.
+    hit.position = object.placement.point(mat3(a, b, c) * weights);
+  }
+};
+
+RayScene::RayScene(const Mesh& mesh) : impl(std::make_unique<Impl>()) {
+  impl->addMesh(mesh);
+  impl->objects.push_back({0, Placement{}});
+  impl->updateExtent();
+}
+
+RayScene::RayScene(const Scene& scene) : impl(std::make_unique<Impl>()) {
+  for (const Mesh& mesh : scene.meshes) impl->addMesh(mesh);
+  impl->top.reset(rtcNewScene(impl->device.get()));
+  rtcSetSceneFlags(impl->top.get(), RTC_SCENE_FLAG_ROBUST);
+  for (uint32_t i = 0; i < scene.objects.size(); ++i) {
+    RTCGeometry instance = rtcNewGeometry(impl->device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, impl->meshes[scene.objects[i].mesh].scene.get());
+    rtcAttachGeometryByID(impl->top.get(), instance, i);
+    rtcReleaseGeometry(instance);
+    impl->instances.push_back(instance);
+  }
+  place(scene);
+}
+
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+RayScene::~RayScene() = default;
+
+void RayScene::place(const Scene& scene) {
+  impl->objects.clear();
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    impl->objects.push_back({object.mesh, object.placement});
+    const mat3 linear = glm::mat3_cast(object.placement.rotation) * object.placement.scale;
+    const glm::mat4x3 transform(linear[0], linear[1], linear[2], object.placement.translation);
+    rtcSetGeometryTransform(impl->instances[i], 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &transform[0].x);
+    rtcCommitGeometry(impl->instances[i]);
+  }
+  rtcCommitScene(impl->top.get());
+  impl->updateExtent();
+}
+
+bool RayScene::intersect(const Ray& ray, Hit& hit) const {
+  countRay();
+  RTCRayHit query = embreeQuery(ray);
+  embreeIntersect(impl->root(), query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  impl->describe(query, hit);
+  return true;
+}
+
+bool RayScene::occluded(const Ray& ray) const {
+  countRay();
+  RTCRay query = embreeRay(ray);
+  embreeOccluded(impl->root(), query);
+  return query.tfar < 0;
+}
+
+float RayScene::selfIntersectionDistance() const {
+  return kSelfIntersectionFraction * impl->extent;
+}
+
+uint32_t RayScene::patchOf(uint32_t mesh, uint32_t triangle) const {
+  return impl->meshes[mesh].patches[triangle];
+}
+
+std::size_t RayScene::replay(std::span<const Ray> rays) const {
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  return oneapi::tbb::parallel_reduce(
+      Range(0, rays.size(), 1024), std::size_t{0},
+      [&](const Range& range, std::size_t hits) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          RTCRayHit query = embreeQuery(rays[i]);
+          embreeIntersect(impl->root(), query);
+          hits += query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+        }
+        return hits;
+      },
+      std::plus<>());
+}
+
+uint64_t raysTraced() {
+  uint64_t sum = 0;
+  for (const RayCounter& counter : rayCounters()) sum += counter.count.load(std::memory_order_relaxed);
+  return sum;
+}
+
+}  // namespace nephroid

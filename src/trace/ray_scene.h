@@ -1,0 +1,69 @@
+// What a ray hits. Embree behind a plain face; nothing else includes it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/shared_language.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+struct Ray {
+  vec3 origin{0};     // m
+  vec3 direction{0};  // unit
+  float nearDistance = 0;
+  float farDistance = std::numeric_limits<float>::infinity();
+};
+
+struct Hit {
+  float distance = 0;       // m
+  uint32_t object = kNone;  // index into Scene::objects, or 0 for a scene of one mesh
+  uint32_t triangle = 0;
+  uint32_t patch = 0;   // smooth surface of the mesh the triangle belongs to
+  vec2 barycentric{0};  // weights of the triangle's second and third corner
+  vec3 position{0};
+  vec3 normal{0};           // unit, interpolated from the vertices
+  vec3 geometricNormal{0};  // unit, outward by winding
+};
+
+// Immutable but for placements; safe to trace from many threads.
+class RayScene {
+ public:
+  // One mesh in its own space, as object 0. The mesh must outlive this.
+  explicit RayScene(const Mesh& mesh);
+  // All objects of a scene. The scene's meshes must outlive this.
+  explicit RayScene(const Scene& scene);
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+  ~RayScene();
+
+  // Moves the objects to where `scene`, with the same meshes, has them now; rebuilds only what lies above the
+  // meshes.
+  void place(const Scene& scene);
+
+  bool intersect(const Ray& ray, Hit& hit) const;
+  bool occluded(const Ray& ray) const;
+
+  // m: rays that leave a surface start this far along, so that they do not meet it again. Grows with the
+  // scene's extent.
+  float selfIntersectionDistance() const;
+
+  // Smooth surface that a triangle of a mesh (its index in the scene) belongs to.
+  uint32_t patchOf(uint32_t mesh, uint32_t triangle) const;
+
+  // The bare loop every ray rate is held against: nothing but Embree's closest hit, in parallel. Returns how
+  // many rays hit.
+  std::size_t replay(std::span<const Ray> rays) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl;
+};
+
+// Rays traced by this process so far, all scenes together.
+uint64_t raysTraced();
+
+}  // namespace nephroid

@@ -1,0 +1,177 @@
+#include "transport/follow.h"
+
+#include <algorithm>
+
+#include "optics/refraction.h"
+
+namespace nephroid {
+namespace {
+
+enum class Event : uint32_t { entered, left, reflected };
+
+uint32_t extendSignature(uint32_t signature, uint32_t object, uint32_t patch, Event event) {
+  for (const uint32_t word : {object, patch, static_cast<uint32_t>(event)})
+    signature = (signature ^ (word + 0x9e3779b9u)) * 16777619u;  // FNV-1a, a word at a time
+  return signature;
+}
+
+// The smooth normal on the side the light comes from; the geometric one where the smooth one faces away from
+// the light.
+vec3 facingNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
+  const float side = dot(direction, geometricNormal) < 0 ? 1.0f : -1.0f;
+  return dot(direction, side * normal) < 0 ? side * normal : side * geometricNormal;
+}
+
+}  // namespace
+
+bool MediumStack::contains(uint32_t object) const {
+  return std::find(objects.begin(), objects.begin() + size, object) != objects.begin() + size;
+}
+
+void MediumStack::enter(uint32_t object) {
+  if (size < objects.size()) objects[size++] = object;
+}
+
+void MediumStack::leave(uint32_t object) {
+  const auto first = objects.begin();
+  const auto last = first + size;
+  const auto innermost =
+      std::find(std::make_reverse_iterator(last), std::make_reverse_iterator(first), object);
+  if (innermost == std::make_reverse_iterator(first)) return;
+  std::copy(innermost.base(), last, innermost.base() - 1);
+  --size;
+}
+
+Follower::Follower(const RayScene& rayScene, std::vector<const Material*> materialOfObject)
+    : rays(rayScene), materials(std::move(materialOfObject)) {}
+
+namespace {
+
+// A ray on its way: what Follower::follow changes from boundary to boundary.
+struct Walk {
+  OutgoingRay ray{};
+  MediumStack media;
+  uint32_t choices = 0;  // boundaries passed where light could both be reflected and transmitted
+};
+
+float iorOf(const std::vector<const Material*>& materials, uint32_t object, uint32_t channel) {
+  return object == kNone ? 1.0f : materials[object]->ior[int(channel)];
+}
+
+// Light that meets a dielectric boundary goes on along `walk`. False: it is lost.
+bool crossDielectric(const std::vector<const Material*>& materials, const FollowSettings& settings,
+                     uint32_t object, uint32_t patch, vec3 normal, bool entering, Walk& walk) {
+  OutgoingRay& ray = walk.ray;
+  MediumStack beyond = walk.media;
+  if (entering) {
+    beyond.enter(object);
+  } else {
+    beyond.leave(object);
+  }
+  const float here = entering ? iorOf(materials, walk.media.top(), settings.channel)
+                              : iorOf(materials, object, settings.channel);
+  const float there = entering ? iorOf(materials, object, settings.channel)
+                               : iorOf(materials, beyond.top(), settings.channel);
+  const float eta = here / there;
+  const float reflectance = fresnelReflectance(std::min(1.0f, -dot(ray.direction, normal)), eta);
+  vec3 transmitted;
+  const bool canTransmit = refractDirection(ray.direction, normal, eta, transmitted);
+  if (!canTransmit && settings.paths == Paths::transmission) return false;
+  const bool planned = canTransmit && ((settings.reflections >> walk.choices) & 1u);
+  if (canTransmit) ++walk.choices;
+  if (planned || !canTransmit) {
+    ray.direction = reflectDirection(ray.direction, normal);
+    ray.transmittance *= reflectance;
+    ray.signature = extendSignature(ray.signature, object, patch, Event::reflected);
+    return true;
+  }
+  ray.direction = transmitted;
+  ray.transmittance *= 1 - reflectance;
+  ray.signature = extendSignature(ray.signature, object, patch, entering ? Event::entered : Event::left);
+  walk.media = beyond;
+  return true;
+}
+
+// A sheet too thin to bend light: what both its faces let through, multiple reflections between them
+// included.
+void crossThinWall(const Material& material, const FollowSettings& settings, uint32_t object, uint32_t patch,
+                   vec3 normal, Walk& walk) {
+  const float reflectance = fresnelReflectance(std::min(1.0f, -dot(walk.ray.direction, normal)),
+                                               1 / material.ior[int(settings.channel)]);
+  walk.ray.transmittance *= material.color * ((1 - reflectance) / (1 + reflectance));
+  walk.ray.signature = extendSignature(walk.ray.signature, object, patch, Event::entered);
+}
+
+void absorb(const std::vector<const Material*>& materials, float length, Walk& walk) {
+  const uint32_t medium = walk.media.top();
+  if (medium == kNone) return;
+  const Material& material = *materials[medium];
+  walk.ray.pathLength += length;
+  walk.ray.transmittance *=
+      volumeTransmittance(material.attenuationColor, material.inverseAttenuationDistance(), length);
+}
+
+}  // namespace
+
+OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 direction, MediumStack media,
+                             const FollowSettings& settings) const {
+  Walk walk;
+  walk.media = media;
+  OutgoingRay& ray = walk.ray;
+  ray.position = entry.position;
+  ray.direction = direction;
+  ray.transmittance = vec3(1);
+  ray.signature = 2166136261u;
+  ray.reach = kUnboundedReach;
+
+  Hit hit;
+  hit.object = object;
+  hit.patch = entry.patch;
+  hit.position = entry.position;
+  hit.normal = hit.geometricNormal = entry.normal;
+  for (uint32_t crossing = 0; crossing < kMaximumCrossings; ++crossing) {
+    const Material& material = *materials[hit.object];
+    const bool entering = dot(ray.direction, hit.geometricNormal) < 0;
+    const vec3 normal = facingNormal(ray.direction, hit.normal, hit.geometricNormal);
+    ray.position = hit.position;
+    if (material.type == MaterialType::mirror) {
+      ray.direction = reflectDirection(ray.direction, normal);
+      ray.transmittance *= material.color;
+      ray.signature = extendSignature(ray.signature, hit.object, hit.patch, Event::reflected);
+    } else if (material.thinWalled) {
+      crossThinWall(material, settings, hit.object, hit.patch, normal, walk);
+    } else if (!crossDielectric(materials, settings, hit.object, hit.patch, normal, entering, walk)) {
+      ray.flags |= kRayLost;
+      return ray;
+    }
+    const bool goesOn = rays.intersect({ray.position, ray.direction, rays.selfIntersectionDistance()}, hit);
+    if (goesOn && materials[hit.object]->isCaster()) {
+      absorb(materials, hit.distance, walk);
+      continue;
+    }
+    if (goesOn) ray.reach = hit.distance;
+    const bool planUnfulfilled = (settings.reflections >> walk.choices) != 0;
+    if (planUnfulfilled) ray.flags |= kRayLost;
+    return ray;
+  }
+  ray.flags |= kRayLost;
+  return ray;
+}
+
+MediumStack Follower::mediaAround(vec3 point) const {
+  const vec3 direction =
+      glm::normalize(vec3(0.3817f, 0.8531f, 0.3551f));  // along no axis or edge likely to be met
+  std::vector<int> windings(materials.size(), 0);
+  Ray ray{point, direction, 0};
+  Hit hit;
+  for (uint32_t crossing = 0; crossing < 4 * kMaximumCrossings && rays.intersect(ray, hit); ++crossing) {
+    windings[hit.object] += dot(direction, hit.geometricNormal) > 0 ? 1 : -1;
+    ray.nearDistance = hit.distance + rays.selfIntersectionDistance();
+  }
+  MediumStack media;
+  for (uint32_t object = 0; object < windings.size(); ++object)
+    if (windings[object] > 0 && materials[object]->type == MaterialType::dielectric) media.enter(object);
+  return media;
+}
+
+}  // namespace nephroid

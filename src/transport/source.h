@@ -1,0 +1,56 @@
+// Where outgoing rays come from. Nothing after a source knows which one ran.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "optics/emitter.h"
+#include "scene/scene.h"
+#include "transport/outgoing_ray.h"
+
+namespace nephroid {
+
+// transmission: refraction alone; light that would be totally reflected is lost. all: reflection outside and
+// inside as well.
+enum class Paths { transmission, all };
+
+// Which media light is inside of, outermost first; each is an object's index.
+struct MediumStack {
+  std::array<uint32_t, 8> objects{};
+  uint32_t size = 0;
+  uint32_t top() const { return size ? objects[size - 1] : kNone; }
+  bool contains(uint32_t object) const;
+  void enter(uint32_t object);
+  void leave(uint32_t object);
+};
+
+// Light of one emitter, in one band, along one choice of reflections, through one caster.
+struct TransportQuery {
+  uint32_t object = 0;
+  Emitter emitter{};
+  uint32_t channel = 0;  // which of the three indices of refraction it is bent by
+  Paths paths = Paths::transmission;
+  uint32_t reflections = 0;  // bit i: it is reflected at the i-th boundary where it could also be transmitted
+  MediumStack media;         // what the emitter stands in
+};
+
+// A point of a caster's surface where light meets it. World space.
+struct SurfacePoint {
+  vec3 position{0};
+  vec3 normal{0};  // unit, smooth
+  uint32_t patch = 0;
+};
+
+class TransportSource {
+ public:
+  virtual ~TransportSource() = default;
+
+  // The outgoing ray for every vertex of the caster's mesh, in the mesh's order.
+  virtual void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const = 0;
+
+  // Whether rays can be had anywhere on the surface, and not at the vertices alone.
+  virtual bool refines() const = 0;
+  virtual OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const = 0;
+};
+
+}  // namespace nephroid

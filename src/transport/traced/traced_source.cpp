@@ -1,0 +1,74 @@
+#include "transport/traced/traced_source.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "optics/refraction.h"
+
+namespace nephroid {
+namespace {
+
+std::vector<const Material*> materialsOf(const Scene& scene) {
+  std::vector<const Material*> materials;
+  for (const Object& object : scene.objects) materials.push_back(&scene.materialOf(object));
+  return materials;
+}
+
+}  // namespace
+
+TracedSource::TracedSource(const Scene& sceneToTrace, const RayScene& rays)
+    : scene(sceneToTrace), follower(rays, materialsOf(sceneToTrace)) {}
+
+MediumStack TracedSource::mediaAround(const Emitter& emitter) const {
+  return emitter.type == kEmitterDirectional ? MediumStack{} : follower.mediaAround(emitter.position);
+}
+
+bool TracedSource::isLit(const TransportQuery& query, const SurfacePoint& point, vec3 direction) const {
+  const float farDistance = query.emitter.type == kEmitterDirectional
+                                ? std::numeric_limits<float>::infinity()
+                                : glm::length(query.emitter.position - point.position);
+  const float margin = follower.rayScene().selfIntersectionDistance();
+  return !follower.rayScene().occluded({point.position, -direction, margin, farDistance - margin});
+}
+
+OutgoingRay TracedSource::rayAt(const TransportQuery& query, const SurfacePoint& point) const {
+  const vec3 direction = emitterDirection(query.emitter, point.position);
+  const bool arrivesFromOutside = dot(direction, point.normal) < 0;
+  OutgoingRay ray{};
+  ray.position = point.position;
+  ray.direction = direction;
+  ray.flags = kRayLost;
+  if (arrivesFromOutside == query.media.contains(query.object)) return ray;
+  if (!isLit(query, point, direction)) {
+    ray.flags = kRayOccluded;
+    return ray;
+  }
+  ray = follower.follow(point, query.object, direction, query.media,
+                        {query.channel, query.paths, query.reflections});
+  if (query.media.size > 0) {
+    // The way from the light to the surface lies inside a medium as well.
+    const Material& medium = scene.materialOf(scene.objects[query.media.top()]);
+    const float distance = length(point.position - query.emitter.position);
+    ray.pathLength += distance;
+    ray.transmittance *=
+        volumeTransmittance(medium.attenuationColor, medium.inverseAttenuationDistance(), distance);
+  }
+  return ray;
+}
+
+void TracedSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const {
+  const Object& object = scene.objects[query.object];
+  const Mesh& mesh = scene.meshOf(object);
+  std::vector<uint32_t> patches(mesh.positions.size(), 0);
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int corner = 0; corner < 3; ++corner)
+      patches[mesh.triangles[t][corner]] = follower.rayScene().patchOf(object.mesh, t);
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  oneapi::tbb::parallel_for(Range(0, mesh.positions.size(), 64), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      rays[i] = rayAt(query, {object.placement.point(mesh.positions[i]),
+                              object.placement.direction(mesh.normals[i]), patches[i]});
+  });
+}
+
+}  // namespace nephroid

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "transport/follow.h"
+#include "transport/source.h"
+
+namespace nephroid {
+
+// Outgoing rays traced now, for this light, through the whole scene as it stands: the baseline of Iwasaki
+// 2005 ("without the table"), the measure of every table, and what deforming casters need. Follows light from
+// caster to caster.
+class TracedSource : public TransportSource {
+ public:
+  // Both must outlive this.
+  TracedSource(const Scene& scene, const RayScene& rays);
+
+  void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const override;
+  bool refines() const override { return true; }
+  OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override;
+
+  // The media around an emitter, for its queries.
+  MediumStack mediaAround(const Emitter& emitter) const;
+
+ private:
+  bool isLit(const TransportQuery& query, const SurfacePoint& point, vec3 direction) const;
+
+  const Scene& scene;
+  Follower follower;
+};
+
+}  // namespace nephroid
