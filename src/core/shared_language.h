@@ -15,6 +15,7 @@ using glm::abs;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
+using glm::floor;
 using glm::ivec2;
 using glm::ivec3;
 using glm::length;

@@ -224,6 +224,8 @@ uint32_t RayScene::patchOf(uint32_t mesh, uint32_t triangle) const {
   return impl->meshes[mesh].patches[triangle];
 }
 
+bool RayScene::isClosed(uint32_t object) const { return impl->meshes[impl->objects[object].mesh].mesh->isClosed; }
+
 std::size_t RayScene::replay(std::span<const Ray> rays) const {
   using Range = oneapi::tbb::blocked_range<std::size_t>;
   return oneapi::tbb::parallel_reduce(

@@ -54,6 +54,9 @@ class RayScene {
   // Smooth surface that a triangle of a mesh (its index in the scene) belongs to.
   uint32_t patchOf(uint32_t mesh, uint32_t triangle) const;
 
+  // Whether an object's mesh bounds a volume, so that a ray inside must come out again.
+  bool isClosed(uint32_t object) const;
+
   // The bare loop every ray rate is held against: nothing but Embree's closest hit, in parallel. Returns how
   // many rays hit.
   std::size_t replay(std::span<const Ray> rays) const;

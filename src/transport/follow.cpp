@@ -150,8 +150,9 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
       continue;
     }
     if (goesOn) ray.reach = hit.distance;
+    const bool leaked = !goesOn && walk.media.top() != kNone && rays.isClosed(walk.media.top());
     const bool planUnfulfilled = (settings.reflections >> walk.choices) != 0;
-    if (planUnfulfilled) ray.flags |= kRayLost;
+    if (leaked || planUnfulfilled) ray.flags |= kRayLost;
     return ray;
   }
   ray.flags |= kRayLost;

@@ -1,0 +1,230 @@
+#include "beams/build.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+
+namespace nephroid {
+namespace {
+
+// Triangles longer than this part of the mesh's extent are cut before anything is judged by their corners.
+constexpr float kCoarseFraction = 1.0f / 24;
+constexpr uint32_t kMaximumForcedCuts = 7;
+constexpr std::size_t kBlock = 64;  // triangles whose beams one task makes
+// Rays of a cut triangle start this part of the way toward its middle, off edges where two surfaces meet.
+constexpr float kInset = 1e-3f;
+
+struct Corner {
+  SurfacePoint point;
+  OutgoingRay ray;
+};
+using Triangle = std::array<Corner, 3>;
+
+// Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983), positive when it is seen counter-clockwise.
+float solidAngle(vec3 a, vec3 b, vec3 c) {
+  const glm::dvec3 p(a), q(b), r(c);
+  const double la = glm::length(p), lb = glm::length(q), lc = glm::length(r);
+  const double denominator = la * lb * lc + glm::dot(p, q) * lc + glm::dot(p, r) * lb + glm::dot(q, r) * la;
+  return float(-2 * std::atan2(glm::dot(p, glm::cross(q, r)), denominator));
+}
+
+class Builder {
+ public:
+  Builder(const Scene& sceneOf, const TransportSource& sourceOf, const TransportQuery& queryOf, vec3 color,
+          const BeamSettings& settingsOf)
+      : scene(sceneOf), source(sourceOf), query(queryOf), bandColor(color), settings(settingsOf),
+        facing(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f) {}
+
+  void add(const Triangle& triangle, uint32_t forcedCuts, BeamSet& set) const {
+    const vec3 flux = incident(triangle);
+    if (!(flux.x + flux.y + flux.z > 0)) return;
+    set.incidentFlux += flux;
+    ++set.triangles;
+    if (source.refines() && forcedCuts > 0) {
+      cut(triangle, settings.refineDepth, forcedCuts, set);
+    } else {
+      refine(triangle, settings.refineDepth, set);
+    }
+  }
+
+ private:
+  vec3 incident(const Triangle& t) const {
+    return bandColor * glm::max(facing * fluxOnto(query.emitter, t[0].point.position, t[1].point.position, t[2].point.position),
+                                vec3(0));
+  }
+
+  bool arrives(const OutgoingRay& ray) const {
+    if (ray.flags != 0) return false;
+    if (!settings.stopAtSurfaces) return true;
+    vec2 texel;
+    float distance;
+    return meetPlane(ray.position, ray.direction, settings.targets[0], texel, distance) &&
+           ray.reach >= distance * (1 - 1e-3f) - 1e-4f;
+  }
+
+  bool sameWay(const Triangle& t) const {
+    const bool arrivesA = arrives(t[0].ray);
+    return arrivesA == arrives(t[1].ray) && arrivesA == arrives(t[2].ray) &&
+           (!arrivesA || (t[0].ray.signature == t[1].ray.signature && t[0].ray.signature == t[2].ray.signature));
+  }
+
+  Corner between(const Triangle& triangle, const Corner& a, const Corner& b) const {
+    Corner middle;
+    middle.point.position = 0.5f * (a.point.position + b.point.position);
+    middle.point.normal = normalize(a.point.normal + b.point.normal);
+    middle.point.patch = a.point.patch;
+    middle.ray = source.rayAt(query, inset(triangle, middle.point));
+    return middle;
+  }
+
+  static SurfacePoint inset(const Triangle& triangle, SurfacePoint point) {
+    const vec3 center = (triangle[0].point.position + triangle[1].point.position + triangle[2].point.position) / 3.0f;
+    point.position += kInset * (center - point.position);
+    return point;
+  }
+
+  // Whether the ray at a side's middle lies off the middle of the rays at its ends by more than the tolerance.
+  bool bends(const Corner& a, const Corner& b, const Corner& middle) const {
+    for (const PlaneGrid& target : settings.targets) {
+      vec2 atA, atB, atMiddle;
+      float distance;
+      const bool meets = meetPlane(a.ray.position, a.ray.direction, target, atA, distance);
+      if (meets != meetPlane(b.ray.position, b.ray.direction, target, atB, distance)) return true;
+      if (meets != meetPlane(middle.ray.position, middle.ray.direction, target, atMiddle, distance)) return true;
+      if (meets && length(atMiddle - 0.5f * (atA + atB)) > settings.refineTolerance) return true;
+    }
+    return false;
+  }
+
+  void refine(const Triangle& t, uint32_t depth, BeamSet& set) const {
+    if (!source.refines() || depth == 0) return emit(t, set);
+    if (!sameWay(t)) return cut(t, depth - 1, 0, set);
+    if (!arrives(t[0].ray)) return;
+    const std::array<Corner, 3> middles = middlesOf(t);
+    bool keep = true;
+    for (int i = 0; i < 3 && keep; ++i)
+      keep = arrives(middles[i].ray) && middles[i].ray.signature == t[0].ray.signature &&
+             !bends(t[i], t[(i + 1) % 3], middles[i]);
+    if (keep) return emit(t, set);
+    cutAt(t, middles, depth - 1, 0, set);
+  }
+
+  std::array<Corner, 3> middlesOf(const Triangle& t) const {
+    return {between(t, t[0], t[1]), between(t, t[1], t[2]), between(t, t[2], t[0])};
+  }
+
+  void cut(const Triangle& t, uint32_t depth, uint32_t forcedCuts, BeamSet& set) const {
+    cutAt(t, middlesOf(t), depth, forcedCuts, set);
+  }
+
+  void cutAt(const Triangle& t, const std::array<Corner, 3>& m, uint32_t depth, uint32_t forcedCuts, BeamSet& set) const {
+    ++set.refined;
+    const Triangle parts[4] = {{t[0], m[0], m[2]}, {m[0], t[1], m[1]}, {m[2], m[1], t[2]}, {m[0], m[1], m[2]}};
+    for (const Triangle& part : parts) {
+      if (forcedCuts > 1) {
+        cut(part, depth, forcedCuts - 1, set);
+      } else {
+        refine(part, depth, set);
+      }
+    }
+  }
+
+  void emit(const Triangle& t, BeamSet& set) const {
+    const vec3 flux = incident(t);
+    if (sameWay(t)) {
+      if (!arrives(t[0].ray)) return;
+      Beam beam{};
+      for (int i = 0; i < 3; ++i) {
+        beam.position[i] = t[i].ray.position;
+        beam.direction[i] = t[i].ray.direction;
+        beam.flux += flux * t[i].ray.transmittance / 3.0f;
+        beam.reach = std::max(beam.reach, t[i].ray.reach);
+      }
+      set.beams.push_back(beam);
+      return;
+    }
+    // Each corner speaks for the third of the triangle nearest to it.
+    ++set.split;
+    for (const Corner& corner : t) {
+      if (!arrives(corner.ray)) continue;
+      Beam beam{};
+      for (int i = 0; i < 3; ++i) {
+        beam.position[i] = corner.ray.position;
+        beam.direction[i] = corner.ray.direction;
+      }
+      beam.flux = flux * corner.ray.transmittance / 3.0f;
+      beam.reach = corner.ray.reach;
+      set.beams.push_back(beam);
+    }
+  }
+
+  const Scene& scene;
+  const TransportSource& source;
+  const TransportQuery& query;
+  const vec3 bandColor;
+  const BeamSettings& settings;
+  const float facing;  // -1 where the light stands inside the caster and meets its triangles from behind
+};
+
+float extentOf(const Mesh& mesh) {
+  vec3 lower(std::numeric_limits<float>::infinity()), upper(-lower);
+  for (const vec3& p : mesh.positions) {
+    lower = glm::min(lower, p);
+    upper = glm::max(upper, p);
+  }
+  return length(upper - lower);
+}
+
+uint32_t forcedCutsFor(const Mesh& mesh, const uvec3& t, float extent) {
+  const vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+  const float longest = std::max({length(b - a), length(c - b), length(a - c)});
+  const float cuts = std::ceil(std::log2(longest / (kCoarseFraction * extent)));
+  return uint32_t(glm::clamp(cuts, 0.0f, float(kMaximumForcedCuts)));
+}
+
+}  // namespace
+
+vec3 fluxOnto(const Emitter& emitter, vec3 a, vec3 b, vec3 c) {
+  if (emitter.type == kEmitterDirectional) return emitter.power * (-0.5f * dot(emitter.direction, cross(b - a, c - a)));
+  const vec3 power = emitterPower(emitter, normalize((a + b + c) / 3.0f - emitter.position));
+  return power * solidAngle(a - emitter.position, b - emitter.position, c - emitter.position);
+}
+
+BeamSet buildBeams(const Scene& scene, const TransportSource& source, const TransportQuery& query, vec3 bandColor,
+                   const BeamSettings& settings) {
+  const Object& object = scene.objects[query.object];
+  const Mesh& mesh = scene.meshOf(object);
+  std::vector<OutgoingRay> rays(mesh.positions.size());
+  source.vertexRays(query, rays);
+
+  const Builder builder(scene, source, query, bandColor, settings);
+  const float extent = extentOf(mesh);
+  const std::size_t blocks = (mesh.triangles.size() + kBlock - 1) / kBlock;
+  std::vector<BeamSet> parts(blocks);
+  oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+    const std::size_t end = std::min(mesh.triangles.size(), (block + 1) * kBlock);
+    for (std::size_t t = block * kBlock; t < end; ++t) {
+      Triangle triangle;
+      for (int i = 0; i < 3; ++i) {
+        const uint32_t vertex = mesh.triangles[t][i];
+        triangle[i] = {{object.placement.point(mesh.positions[vertex]), object.placement.direction(mesh.normals[vertex]), 0},
+                       rays[vertex]};
+      }
+      builder.add(triangle, forcedCutsFor(mesh, mesh.triangles[t], extent), parts[block]);
+    }
+  });
+
+  BeamSet whole;
+  for (BeamSet& part : parts) {
+    whole.beams.insert(whole.beams.end(), part.beams.begin(), part.beams.end());
+    whole.incidentFlux += part.incidentFlux;
+    whole.triangles += part.triangles;
+    whole.refined += part.refined;
+    whole.split += part.split;
+  }
+  return whole;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,93 @@
+// Where a beam crosses a plane, and how much of that triangle each texel of a grid on the plane holds. Once for C++ and GLSL.
+//
+// Coverage is exact (the integral of the triangle over the texel), so a beam leaves its whole flux behind whatever its size.
+#ifndef NEPHROID_BEAMS_FOOTPRINT_H
+#define NEPHROID_BEAMS_FOOTPRINT_H
+
+#include "beams/beam.h"
+
+SHARED_BEGIN
+
+// A grid of texels on a plane. A point p lies at texel coordinates (dot(p - corner, axisU), dot(p - corner, axisV)).
+struct PlaneGrid {
+  vec3 corner;  // m, where texel (0, 0) begins
+  vec3 axisU;   // texels per metre along a row
+  vec3 axisV;   // texels per metre down the rows
+  vec3 normal;  // unit, the way light passes through
+};
+
+// Texel coordinates where a ray meets the plane. False where it moves away from the plane or along it.
+SHARED_FUNCTION bool meetPlane(vec3 position, vec3 direction, PlaneGrid grid, OUT(vec2) texel, OUT(float) rayDistance) {
+  float approach = dot(direction, grid.normal);
+  rayDistance = dot(grid.corner - position, grid.normal) / max(approach, 1e-6f);
+  vec3 offset = position + rayDistance * direction - grid.corner;
+  texel = vec2(dot(offset, grid.axisU), dot(offset, grid.axisV));
+  return approach > 1e-4f && rayDistance >= 0.0f;
+}
+
+SHARED_FUNCTION float doubledArea(vec2 a, vec2 b, vec2 c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// Integral of clamp(x, 0, 1).
+SHARED_FUNCTION float clampedIntegral(float x) {
+  float inside = clamp(x, 0.0f, 1.0f);
+  return 0.5f * inside * inside + max(x - 1.0f, 0.0f);
+}
+
+// Integral over dy, along the edge a-b within the texel's row, of how far the edge lies right of the texel's left side (0 to 1).
+SHARED_FUNCTION float edgeCoverage(vec2 a, vec2 b, vec2 texel) {
+  float y0 = clamp(a.y - texel.y, 0.0f, 1.0f);
+  float y1 = clamp(b.y - texel.y, 0.0f, 1.0f);
+  float height = b.y - a.y;
+  float slope = height != 0.0f ? (b.x - a.x) / height : 0.0f;
+  float x0 = a.x - texel.x + (y0 - (a.y - texel.y)) * slope;
+  float x1 = a.x - texel.x + (y1 - (a.y - texel.y)) * slope;
+  float width = x1 - x0;
+  float mean = abs(width) < 1e-2f ? clamp(0.5f * (x0 + x1), 0.0f, 1.0f)
+                                  : (clampedIntegral(x1) - clampedIntegral(x0)) / width;
+  return mean * (y1 - y0);
+}
+
+// Texels squared of the triangle that lie in the texel whose upper left corner is `texel`.
+SHARED_FUNCTION float triangleCoverage(vec2 a, vec2 b, vec2 c, vec2 texel) {
+  return abs(edgeCoverage(a, b, texel) + edgeCoverage(b, c, texel) + edgeCoverage(c, a, texel));
+}
+
+// A triangle this thin is a line: its area has too few digits left to be shared out by coverage.
+SHARED_FUNCTION bool isSliver(vec2 a, vec2 b, vec2 c) {
+  vec2 extent = max(max(a, b), c) - min(min(a, b), c);
+  float longest = max(extent.x, extent.y);
+  return abs(doubledArea(a, b, c)) < 4e-3f * max(longest * longest, 0.1f);
+}
+
+// A sliver's flux runs along its longest side as a tent with its peak at the third corner. After `sortSliver`, a and c are the
+// ends of the longest side and `peak` is where along it b lies (0 to 1).
+SHARED_FUNCTION float sortSliver(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c) {
+  vec2 corners[3];
+  corners[0] = a;
+  corners[1] = b;
+  corners[2] = c;
+  float ab = dot(b - a, b - a);
+  float bc = dot(c - b, c - b);
+  float ca = dot(a - c, a - c);
+  if (ab >= bc && ab >= ca) {
+    b = corners[2];
+    c = corners[1];
+  } else if (bc >= ca) {
+    a = corners[1];
+    b = corners[0];
+  }
+  float lengthSquared = dot(c - a, c - a);
+  return lengthSquared > 0.0f ? clamp(dot(b - a, c - a) / lengthSquared, 0.0f, 1.0f) : 0.5f;
+}
+
+// Part of a tent's flux that lies before `s` (0 to 1 along the longest side).
+SHARED_FUNCTION float tentBefore(float s, float peak) {
+  if (s <= peak) return peak > 0.0f ? s * s / peak : 0.0f;
+  return 1.0f - (1.0f - s) * (1.0f - s) / (1.0f - peak);
+}
+
+SHARED_END
+
+#endif
