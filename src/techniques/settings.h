@@ -7,10 +7,11 @@
 #include <span>
 #include <string>
 
+#include "transport/source.h"
+
 namespace nephroid {
 
 enum class Source { table, traced };
-enum class Paths { transmission, all };
 
 // In the order of the enumerators.
 inline constexpr std::array<const char*, 2> kSourceNames{"table", "traced"};
