@@ -1,0 +1,143 @@
+#include <algorithm>
+
+#include "command.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+
+namespace nephroid {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// For CLI11's check(): empty where the value is one of `names`.
+auto oneOf(std::vector<std::string> names) {
+  return [names = std::move(names)](const std::string& value) -> std::string {
+    if (std::find(names.begin(), names.end(), value) != names.end()) return {};
+    const std::string nearest = nearestName(value, names);
+    return "there is no '" + value + "' in this version; " +
+           (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") + "There are: " + joined(names);
+  };
+}
+
+template <class Choice, std::size_t Count>
+void addChoice(CLI::App& command, const std::string& flag, Choice& choice,
+               const std::array<const char*, Count>& names, const std::string& help) {
+  const std::vector<std::string> all(names.begin(), names.end());
+  command
+      .add_option_function<std::string>(
+          flag,
+          [&choice, all](const std::string& value) {
+            choice = static_cast<Choice>(std::find(all.begin(), all.end(), value) - all.begin());
+          },
+          help)
+      ->check(oneOf(all))
+      ->type_name(names[0] + std::string("|") + names[1])
+      ->default_str(nameOf(choice))
+      ->group("Technique");
+}
+
+void addField(CLI::App& command, const SettingField& field, uint32_t& value, bool isSensorKnown) {
+  CLI::Option* option = command.add_option(std::string("--") + field.flag, value, field.help);
+  const std::string range = std::to_string(field.minimum) + " to " + std::to_string(field.maximum);
+  const bool hasZeroWord = isSensorKnown && field.zeroWord;
+  const std::string words = hasZeroWord ? range + ", or " + field.zeroWord : range;
+  const auto check = [=](std::string& text) -> std::string {
+    if (hasZeroWord && text == field.zeroWord) {
+      text = "0";
+      return {};
+    }
+    uint32_t number = 0;
+    const bool isNumber = CLI::detail::lexical_cast(text, number);
+    if (isNumber && number >= field.minimum && number <= field.maximum) return {};
+    return "'" + text + "' is not a whole number from " + words;
+  };
+  option->transform(CLI::Validator(check, "(" + words + ")"))->capture_default_str()->group("Technique");
+}
+
+}  // namespace
+
+void addScene(CLI::App& command, fs::path& scene) {
+  command.add_option("SCENE", scene, "The scene: a .toml, .gltf or .glb file")->required()->type_name("");
+}
+
+void addOutput(CLI::App& command, fs::path& output, const std::string& help) {
+  command.add_option("-o,--output", output, help)->required()->type_name("FILE");
+}
+
+void addTime(CLI::App& command, double& time) {
+  command.add_option("--time", time, "The time that what moves by itself is shown at, in seconds")
+      ->type_name("SECONDS")
+      ->capture_default_str();
+}
+
+void addDevice(CLI::App& command, std::string& device) {
+  command
+      .add_option("--device", device,
+                  "The Vulkan device: its number in `nephroid info`, or a part of its name. Left out: a GPU "
+                  "where there is one, Mesa's software device where there is none")
+      ->type_name("DEVICE");
+}
+
+void addQuiet(CLI::App& command, bool& isQuiet) {
+  command.add_flag("--quiet", isQuiet, "No progress bars");
+}
+
+void addMeasuring(CLI::App& command, CommonOptions& options) {
+  command
+      .add_option(
+          "--repeat", options.repeat,
+          "Do the frame this many times, each time all that a moved light would change; the time told "
+          "is their median")
+      ->check(CLI::Range(1u, 1000000u))
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--stats", options.stats,
+          "Where to write what the run took: device, technique, source, prepare_ms, frame_ms, passes, "
+          "counts, memory_bytes")
+      ->type_name("FILE.json");
+}
+
+void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown) {
+  const std::vector<std::string> techniques = {"illumination-textures", "none"};
+  command.add_option("--technique", settings.technique, "How caustics are made: " + joined(techniques))
+      ->check(oneOf(techniques))
+      ->type_name("NAME")
+      ->capture_default_str()
+      ->group("Technique");
+  addChoice(command, "--source", settings.source, kSourceNames,
+            "Where the rays that leave a caster come from: a light transport table, or traced now");
+  addChoice(command, "--paths", settings.paths, kPathsNames,
+            "Light followed by refraction alone, or by reflection outside and inside as well");
+  for (const SettingField& field : settingFields())
+    addField(command, field, settings.*field.member, isSensorKnown);
+}
+
+void checkOutput(const fs::path& file, const fs::path& scene, std::initializer_list<const char*> extensions) {
+  const std::string extension = file.extension().string();
+  std::string allowed;
+  for (const char* each : extensions) {
+    if (extension == each) allowed.clear();
+    if (extension == each) break;
+    allowed += (allowed.empty() ? "" : " or ") + std::string(each);
+  }
+  if (!allowed.empty())
+    throw InputError("cannot write '" + file.string() + "': its name must end in " + allowed);
+  std::error_code ignored;
+  if (fs::equivalent(file, scene, ignored))
+    throw InputError("'" + file.string() + "' is the scene itself; name another file to write");
+  checkWritable(file);
+}
+
+void writeStats(const fs::path& file, const Stats& stats) {
+  if (!file.empty()) writeFileAtomically(file, statsJson(stats));
+}
+
+}  // namespace nephroid

@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# From nothing to a picture: installs what is missing, builds, and renders the bunny in coloured glass.
+set -euo pipefail
+cd "$(dirname "$0")"
+. scripts/build.sh
+
+scripts/setup.sh
+build build/release -DCMAKE_BUILD_TYPE=Release -DNEPHROID_TESTS=OFF -DNEPHROID_BENCHMARKS=OFF
+mkdir -p out
+build/release/bin/nephroid render scenes/glass-bunny.toml -o out/glass-bunny.png "$@"
+echo "The picture: $PWD/out/glass-bunny.png"

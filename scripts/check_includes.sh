@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Who may include whom in src/ (docs/design.md). One line a folder: its name, then the folders it may know besides itself.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+rules="
+core
+optics core
+scene core optics
+trace core optics scene
+transport core optics scene trace
+beams core optics scene transport
+gpu core
+techniques core optics scene trace transport beams gpu
+render core optics scene trace transport beams gpu techniques
+report core optics scene trace transport beams gpu techniques render
+"
+wrong=0
+complain() {
+  echo "$1" >&2
+  wrong=1
+}
+
+while read -r folder allowed; do
+  [ -n "$folder" ] && [ -d "src/$folder" ] || continue
+  while IFS=: read -r file line include; do
+    target=$(sed -E 's/.*"([^"]+)".*/\1/' <<<"$include")
+    known=${target%%/*}
+    [[ "$target" == */* && -d "src/$known" ]] || continue
+    if [[ " $folder $allowed " != *" $known "* ]]; then
+      complain "$file:$line: '$folder' may not know '$known'"
+    fi
+  done < <(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' "src/$folder")
+done <<<"$rules"
+
+# A technique knows no other technique: of techniques/X/ only its own files and those of techniques/ itself.
+while IFS=: read -r file line include; do
+  own=$(cut -d/ -f3 <<<"$file")
+  other=$(sed -E 's|.*"techniques/([^/"]+)/.*|\1|' <<<"$include")
+  if [ "$own" != "$other" ] && [ "$(dirname "$file")" != src/techniques ]; then
+    complain "$file:$line: the technique '$own' may not know '$other'"
+  fi
+done < <(grep -rnE '#[[:space:]]*include[[:space:]]*"techniques/[^/"]+/' src/techniques)
+
+while IFS=: read -r file line _; do
+  complain "$file:$line: only src/trace includes Embree"
+done < <(grep -rnE '#[[:space:]]*include[[:space:]]*[<"]embree' src apps tests | grep -v '^src/trace/')
+
+while IFS=: read -r file line _; do
+  complain "$file:$line: windows belong to apps/"
+done < <(grep -rnE '#[[:space:]]*include[[:space:]]*[<"](imgui|GLFW)' src)
+
+exit "$wrong"

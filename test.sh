@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Everything that has to hold: rules and format, a build with clang and the sanitizers, a release build with gcc, all tests.
+# The tests' own summary closes the output.
+set -euo pipefail
+cd "$(dirname "$0")"
+. scripts/build.sh
+
+step() { printf '\n== %s\n' "$*"; }
+
+step "Set-up"
+scripts/setup.sh tests
+
+step "Who may include whom"
+scripts/check_includes.sh
+
+step "Format"
+scripts/check_format.sh
+
+step "clang: warnings as errors; address and undefined-behaviour sanitizers on the tests that need no driver"
+build build/sanitize --preset sanitize
+ctest --test-dir build/sanitize --parallel 2 --output-on-failure --progress
+
+step "clang-tidy"
+scripts/check_tidy.sh build/sanitize
+
+step "gcc: release, warnings as errors; all tests"
+build build/test --preset test
+ctest --test-dir build/test --parallel 2 --output-on-failure
