@@ -1,0 +1,127 @@
+// What is recorded between the beginning and the end of one Device::submitAndWait. Work inside a pass runs in
+// any order; `pass` puts a full barrier before it, and `barrier` one within it. Mistakes of the caller (wrong
+// constants or images) throw std::logic_error in every build.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "core/shared_language.h"
+#include "gpu/program.h"
+#include "gpu/resources.h"
+
+namespace nephroid::gpu {
+
+// An image as a program's binding takes it: alone for `image2D` and `texture2D`, with a sampler for
+// `sampler2D`.
+struct Binding {
+  Binding(const Image& image_) : image(&image_) {}
+  Binding(const Image& image_, const Sampler& sampler_) : image(&image_), sampler(&sampler_) {}
+  const Image* image;
+  const Sampler* sampler = nullptr;
+};
+using Bindings = std::initializer_list<Binding>;
+
+struct NoConstants {};
+
+struct ColorAttachment {
+  const Image* image = nullptr;
+  uint32_t layer = 0;
+  std::optional<vec4> clear;  // without it what is there is kept
+};
+
+struct DepthAttachment {
+  const Image* image = nullptr;
+  uint32_t layer = 0;
+  std::optional<float> clear;
+};
+
+struct RenderTargets {
+  std::vector<ColorAttachment> colors;
+  std::optional<DepthAttachment> depth;
+};
+
+// Indices (uint32) `first` .. `first + count` of a buffer, each with `vertexOffset` added to it.
+struct IndexRange {
+  uint32_t first = 0;
+  uint32_t count = 0;
+  int32_t vertexOffset = 0;
+};
+
+class CommandList {
+ public:
+  static constexpr uint32_t kMaxTimedPasses = 256;
+
+  CommandList(Device& device, VkCommandBuffer commandBuffer, VkQueryPool timestamps);
+
+  // A named, timed piece of work that sees the results of all before it. Passes may nest.
+  void pass(const std::string& name, const std::function<void()>& record);
+
+  // All device work recorded after this sees all recorded before it.
+  void barrier();
+
+  // At least `threads` threads, in whole groups: the shader returns early in those past the end.
+  template <class Constants>
+  void dispatch(const Program& program, uvec3 threads, const Constants& constants, Bindings bindings = {}) {
+    dispatchBytes(program, threads, bytesOf(constants), bindings);
+  }
+
+  // Draws go between the beginning and the end of this; the viewport is all of the targets.
+  void render(const RenderTargets& targets, const std::function<void()>& draws);
+  void setViewport(ivec2 corner, uvec2 size);  // in texels; until the next render or setViewport
+
+  template <class Constants>
+  void draw(const Program& program, uint32_t vertexCount, uint32_t instanceCount, const Constants& constants,
+            Bindings bindings = {}) {
+    drawBytes(program, vertexCount, instanceCount, bytesOf(constants), bindings);
+  }
+  template <class Constants>
+  void drawIndexed(const Program& program, const Buffer& indices, const IndexRange& range,
+                   uint32_t instanceCount, const Constants& constants, Bindings bindings = {}) {
+    drawIndexedBytes(program, indices, range, instanceCount, bytesOf(constants), bindings);
+  }
+
+  void clear(const Image& image, vec4 color);
+  void fill(const Buffer& buffer, uint32_t word);
+  void copy(const Buffer& from, const Buffer& to, VkDeviceSize bytes, VkDeviceSize fromOffset = 0,
+            VkDeviceSize toOffset = 0);
+  void copy(const Buffer& from, VkDeviceSize fromOffset, const Image& to, uint32_t layer = 0,
+            uint32_t mipLevel = 0);
+  void copy(const Image& from, uint32_t layer, const Buffer& to, VkDeviceSize toOffset = 0);
+
+  VkCommandBuffer handle() const { return commandBuffer_; }
+  const std::vector<std::string>& timedPasses() const { return timedPasses_; }
+
+  void toGeneralLayout(const Image& image);  // for createImage
+  void makeVisibleToHost();                  // for submitAndWait
+
+ private:
+  template <class Constants>
+  static std::span<const std::byte> bytesOf(const Constants& constants) {
+    static_assert(std::is_trivially_copyable_v<Constants>);
+    if constexpr (std::is_empty_v<Constants>)
+      return {};
+    else
+      return std::as_bytes(std::span(&constants, 1));
+  }
+  void dispatchBytes(const Program& program, uvec3 threads, std::span<const std::byte> constants,
+                     Bindings bindings);
+  void drawBytes(const Program& program, uint32_t vertexCount, uint32_t instanceCount,
+                 std::span<const std::byte> constants, Bindings bindings);
+  void drawIndexedBytes(const Program& program, const Buffer& indices, const IndexRange& range,
+                        uint32_t instanceCount, std::span<const std::byte> constants, Bindings bindings);
+  void bind(const Program& program, std::span<const std::byte> constants, Bindings bindings);
+  void writeTimestamp(uint32_t query);
+
+  Device& device_;
+  VkCommandBuffer commandBuffer_;
+  VkQueryPool timestamps_;
+  std::vector<std::string> timedPasses_;
+};
+
+}  // namespace nephroid::gpu

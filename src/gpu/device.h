@@ -1,0 +1,87 @@
+// A Vulkan 1.3 device with one queue, on which work is recorded, submitted and waited for: the same commands
+// give the same bytes, and nothing a caller owns is in use once submitAndWait has returned.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu/instance.h"
+#include "gpu/memory.h"
+#include "gpu/vulkan.h"
+
+namespace nephroid::gpu {
+
+class CommandList;
+
+struct DeviceOptions {
+  std::string device;       // index or part of the name; empty: discrete before integrated, virtual, software
+  bool validation = false;  // Khronos validation layer with synchronisation validation; NEPHROID_VALIDATION=1
+                            // turns it on too
+};
+
+struct DeviceInfo {
+  uint32_t index = 0;
+  std::string name;
+  std::string type;                  // "discrete", "integrated", "virtual", "software" or "other"
+  std::string driver;                // name and version
+  std::string apiVersion;            // "1.3.230"
+  std::vector<std::string> missing;  // what it would need to be usable; empty when it is usable
+};
+
+// All devices of this machine. Throws RuntimeFailure when there is no loader or no driver.
+std::vector<DeviceInfo> listDevices();
+
+// GPU time between the beginning and the end of a named pass.
+struct PassTime {
+  std::string name;
+  double ms = 0;
+};
+
+class Device {
+ public:
+  // Throws InputError when no device is meant by `options.device`, RuntimeFailure when none is usable.
+  explicit Device(const DeviceOptions& options = {});
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  // Records, submits and waits; returns the passes in the order in which they began (none without
+  // timestamps).
+  std::vector<PassTime> submitAndWait(const std::function<void(CommandList&)>& record);
+
+  VkDevice handle() const { return handle_; }
+  VkPhysicalDevice physicalDevice() const { return physicalDevice_; }
+  const DeviceInfo& info() const { return info_; }
+  const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  MemoryPool& memory() { return *memory_; }
+  uint64_t memoryBytes() const { return memory_->usedBytes(); }  // in buffers and images now
+
+  const std::vector<std::string>& validationMessages() const { return instance_.validationMessages(); }
+  void clearValidationMessages() { instance_.clearValidationMessages(); }
+
+  // What debuggers, captures and validation messages call the object.
+  void setName(VkObjectType type, uint64_t object, const std::string& name) const;
+  bool hasDebugNames() const { return instance_.hasDebugNames(); }
+
+ private:
+  void createDevice();
+  std::vector<PassTime> readPassTimes(const CommandList& commands) const;
+
+  Instance instance_;
+  VkPhysicalDevice physicalDevice_ = VK_NULL_HANDLE;
+  DeviceInfo info_;
+  VkPhysicalDeviceLimits limits_{};
+  uint32_t queueFamily_ = 0;
+  uint32_t timestampBits_ = 0;
+  VkDevice handle_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  VkCommandPool commandPool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commandBuffer_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+  VkQueryPool queryPool_ = VK_NULL_HANDLE;
+  std::unique_ptr<MemoryPool> memory_;
+};
+
+}  // namespace nephroid::gpu

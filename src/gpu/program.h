@@ -1,0 +1,86 @@
+// Compute and raster pipelines that know by reflection how they are fed: images by push descriptors of set 0,
+// in the order of their binding numbers; all else by push constants (at most 128 bytes), which hold the
+// addresses of buffers.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gpu/device.h"
+#include "gpu/reflection.h"
+
+namespace nephroid::gpu {
+
+// The `constant_id = id` constant of a shader, as its 32 bits.
+struct SpecializationConstant {
+  uint32_t id = 0;
+  uint32_t value = 0;
+};
+
+enum class Blend { none, add };
+
+struct ColorTarget {
+  VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
+  Blend blend = Blend::none;
+};
+
+struct RasterState {
+  std::vector<ColorTarget> colors;
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;  // undefined: no depth attachment
+  VkCompareOp depthCompare = VK_COMPARE_OP_LESS;
+  bool depthWrite = true;
+  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  VkCullModeFlags cull = VK_CULL_MODE_NONE;
+  VkFrontFace frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;  // as seen with y down
+  float depthBiasConstant = 0;
+  float depthBiasSlope = 0;
+};
+
+class Program {
+ public:
+  Program() = default;
+  Program(Program&& other) noexcept { swap(other); }
+  Program& operator=(Program&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Program();
+
+  VkPipeline pipeline() const { return pipeline_; }
+  VkPipelineLayout layout() const { return layout_; }
+  VkPipelineBindPoint bindPoint() const { return bindPoint_; }
+  VkShaderStageFlags stages() const { return stages_; }
+  const Reflection& reflection() const { return reflection_; }
+  const std::string& name() const { return name_; }
+  explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
+
+ private:
+  friend Program createComputeProgram(Device&, const std::string&, std::span<const uint32_t>,
+                                      const std::vector<SpecializationConstant>&);
+  friend Program createRasterProgram(Device&, const std::string&, std::span<const uint32_t>,
+                                     std::span<const uint32_t>, const RasterState&,
+                                     const std::vector<SpecializationConstant>&);
+  void createLayout();
+  void swap(Program& other) noexcept;
+
+  Device* device_ = nullptr;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+  VkPipelineBindPoint bindPoint_ = VK_PIPELINE_BIND_POINT_COMPUTE;
+  VkShaderStageFlags stages_ = 0;
+  Reflection reflection_;
+  std::string name_;
+};
+
+Program createComputeProgram(Device& device, const std::string& name, std::span<const uint32_t> spirv,
+                             const std::vector<SpecializationConstant>& constants = {});
+
+// An empty `fragment` draws depth alone.
+Program createRasterProgram(Device& device, const std::string& name, std::span<const uint32_t> vertex,
+                            std::span<const uint32_t> fragment, const RasterState& state,
+                            const std::vector<SpecializationConstant>& constants = {});
+
+}  // namespace nephroid::gpu
