@@ -1,6 +1,7 @@
 # One place for how every target of ours is compiled.
 function(nephroid_compile_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wpedantic)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic
+                         $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     # Says wrong things of std::string's operator+ (GCC bug 105651).
     target_compile_options(${target} PRIVATE -Wno-restrict)

@@ -12,14 +12,18 @@ function(nephroid_shaders target)
     set(words ${generated}/shaders/${symbol}.words)
     set(header ${generated}/shaders/${symbol}.h)
     add_custom_command(
-      OUTPUT ${header}
+      OUTPUT ${words}
       COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -g0 -I${PROJECT_SOURCE_DIR}/src -x -o ${words}
               --depfile ${words}.d ${path}
-      COMMAND ${CMAKE_COMMAND} -DWORDS=${words} -DHEADER=${header} -DSYMBOL=${symbol}
-              -P ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
-      DEPENDS ${path} ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
+      DEPENDS ${path}
       DEPFILE ${words}.d
       COMMENT "Shader ${name}"
+      VERBATIM)
+    add_custom_command(
+      OUTPUT ${header}
+      COMMAND ${CMAKE_COMMAND} -DWORDS=${words} -DHEADER=${header} -DSYMBOL=${symbol}
+              -P ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
+      DEPENDS ${words} ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
       VERBATIM)
     target_sources(${target} PRIVATE ${header})
   endforeach()
