@@ -104,7 +104,7 @@ TEST_F(GpuTest, PassesSeeWhatPassesBeforeThemWrote) {
     ASSERT_EQ(times.size(), 10u);
     EXPECT_EQ(times[0].name, "there");
     EXPECT_EQ(times[9].name, "back");
-    for (const gpu::PassTime& time : times) EXPECT_GE(time.ms, 0);
+    for (const PassTime& time : times) EXPECT_GE(time.milliseconds, 0);
   }
 }
 

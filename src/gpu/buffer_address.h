@@ -1,8 +1,8 @@
 // Addresses of buffers in structs that C++ and GLSL share: BUFFER_ADDRESS(Floats) is a VkDeviceAddress to C++
 // and a reference to the `buffer_reference` block `Floats` to GLSL. Include it in a shader before anything
 // else, for the extensions it turns on.
-// Read whole vectors from an array of bare vectors (`vec3 p[]`), then their components: Mesa 22.3 gives x for any single one.
-// Arrays of structs that hold vectors are not concerned.
+// Read whole vectors from an array of bare vectors (`vec3 p[]`), then their components: Mesa 22.3 gives x for
+// any single one. Arrays of structs that hold vectors are not concerned.
 #ifndef NEPHROID_GPU_BUFFER_ADDRESS_H
 #define NEPHROID_GPU_BUFFER_ADDRESS_H
 

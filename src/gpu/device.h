@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/stats.h"
 #include "gpu/instance.h"
 #include "gpu/memory.h"
 #include "gpu/vulkan.h"
@@ -32,12 +33,6 @@ struct DeviceInfo {
 
 // All devices of this machine. Throws RuntimeFailure when there is no loader or no driver.
 std::vector<DeviceInfo> listDevices();
-
-// GPU time between the beginning and the end of a named pass.
-struct PassTime {
-  std::string name;
-  double ms = 0;
-};
 
 class Device {
  public:

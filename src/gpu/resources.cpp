@@ -176,7 +176,7 @@ Sampler createSampler(Device& device, const SamplerOptions& options) {
   info.mipmapMode =
       options.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
   info.addressModeU = info.addressModeV = info.addressModeW = options.address;
-  info.maxLod = VK_LOD_CLAMP_NONE;
+  info.maxLod = options.mipmapped ? VK_LOD_CLAMP_NONE : 0;
   info.borderColor = options.border;
   info.compareEnable = options.compare.has_value();
   info.compareOp = options.compare.value_or(VK_COMPARE_OP_NEVER);

@@ -1,0 +1,36 @@
+// How outgoing beams become light on receivers.
+#pragma once
+
+#include "gpu/command_list.h"
+#include "scene/scene.h"
+#include "techniques/gpu_scene.h"
+
+namespace nephroid {
+
+// Where receivers' light is asked for: a camera's pixels or a sensor's texels. Both images are of one size.
+struct ReceiverPoints {
+  const gpu::Image* position = nullptr;  // rgba32f: world m; a = 1 where there is a receiver, else 0
+  const gpu::Image* normal = nullptr;    // rgba32f: unit, on the side of the viewer or sensor
+};
+
+// One frame is update, record, then shade for each view. A moved camera changes only what shade does.
+class Technique {
+ public:
+  Technique() = default;
+  Technique(const Technique&) = delete;
+  Technique& operator=(const Technique&) = delete;
+  virtual ~Technique() = default;
+
+  // What the host does in a frame: rays, beams, planes. Nothing is in use by the device.
+  virtual void update(const Scene& scene, GpuScene& gpuScene) = 0;
+
+  // What the device does that no view has a part in.
+  virtual void record(gpu::CommandList& commands, GpuScene& gpuScene) = 0;
+
+  // Adds to `causticsLux` (rgba32f, the size of the points) the illuminance (lux) on each receiver point by
+  // light that met a caster. Synchronised with all before it; what it records is named by passes of its own.
+  virtual void shade(gpu::CommandList& commands, const ReceiverPoints& points,
+                     const gpu::Image& causticsLux) = 0;
+};
+
+}  // namespace nephroid
