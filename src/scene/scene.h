@@ -1,4 +1,5 @@
-// What exists: plain structs that refer to each other by index. Metres, degrees, seconds; right-handed, +Y up; linear Rec. 709.
+// What exists: plain structs that refer to each other by index. Metres, degrees, seconds; right-handed, +Y
+// up; linear Rec. 709.
 #pragma once
 
 #include <array>
@@ -40,31 +41,34 @@ enum class MaterialType { diffuse, dielectric, mirror };
 struct Material {
   std::string name;
   MaterialType type = MaterialType::diffuse;
-  vec3 color{0.8f};                // reflectance of a diffuse surface or a mirror
-  uint32_t colorTexture = kNone;   // multiplies `color`
-  vec3 emission{0};                // nit
-  vec3 ior{1.5f};                  // per channel; equal channels: no dispersion
-  float dispersion = 0;            // 20 / Abbe number (KHR_materials_dispersion); `ior` already follows from it
-  vec3 attenuationColor{1};        // what is left after attenuationDistance
+  vec3 color{0.8f};               // reflectance of a diffuse surface or a mirror
+  uint32_t colorTexture = kNone;  // multiplies `color`
+  vec3 emission{0};               // nit
+  vec3 ior{1.5f};                 // per channel; equal channels: no dispersion
+  float dispersion = 0;      // 20 / Abbe number (KHR_materials_dispersion); `ior` already follows from it
+  vec3 attenuationColor{1};  // what is left after attenuationDistance
   float attenuationDistance = std::numeric_limits<float>::infinity();  // m
-  bool thinWalled = false;         // glTF transmission without a volume: light passes straight through, so no caustic
+  bool thinWalled =
+      false;  // glTF transmission without a volume: light passes straight through, so no caustic
   bool isCaster() const { return type != MaterialType::diffuse; }
   bool isDispersive() const { return ior.x != ior.y || ior.y != ior.z; }
   float inverseAttenuationDistance() const { return attenuationDistance > 0 ? 1 / attenuationDistance : 0; }
 };
 
-// Triangles in the object's own space, counter-clockwise from outside. All arrays but `triangles` are per vertex.
+// Triangles in the object's own space, counter-clockwise from outside. All arrays but `triangles` are per
+// vertex.
 struct Mesh {
   std::string name;
-  std::vector<vec3> positions;   // m
-  std::vector<vec3> normals;     // unit, exact for shapes; averaged by area from the faces where a file has none
-  std::vector<vec2> texcoords;   // empty when there are none
+  std::vector<vec3> positions;  // m
+  std::vector<vec3> normals;  // unit, exact for shapes; averaged by area from the faces where a file has none
+  std::vector<vec2> texcoords;  // empty when there are none
   std::vector<uvec3> triangles;
-  bool isClosed = false;         // every edge has two faces after joining equal positions
+  bool isClosed = false;          // every edge has two faces after joining equal positions
+  uint32_t droppedTriangles = 0;  // triangles without an area, left out when the mesh was made
 };
 
-// A rigid motion and a uniform scale; anything else is baked into the mesh when it is loaded, so that what is computed for a
-// mesh (a light transport table) holds wherever it stands.
+// A rigid motion and a uniform scale; anything else is baked into the mesh when it is loaded, so that what is
+// computed for a mesh (a light transport table) holds wherever it stands.
 struct Placement {
   vec3 translation{0};
   quat rotation{1, 0, 0, 0};
@@ -83,10 +87,11 @@ struct Wave {
   float phase = 0;       // radians
 };
 
-// The height field behind a mesh of the shape "water": y = sum of amplitude sin(2 pi / wavelength (direction . (x, z) - speed t) + phase).
+// The height field behind a mesh of the shape "water": y = sum of amplitude sin(2 pi / wavelength (direction
+// . (x, z) - speed t) + phase).
 struct Water {
-  vec2 size{1, 1};  // m
-  uvec2 grid{2, 2}; // vertices along x and z
+  vec2 size{1, 1};   // m
+  uvec2 grid{2, 2};  // vertices along x and z
   std::vector<Wave> waves;
 };
 
@@ -103,16 +108,16 @@ enum class LightType { directional, point, spot, line };
 struct Light {
   std::string name;
   LightType type = LightType::point;
-  vec3 position{0};             // point, spot; one end of a line
-  vec3 end{0};                  // the other end of a line
-  vec3 direction{0, -1, 0};     // unit, the way the light travels
-  vec3 intensity{1};            // cd; of the whole tube for a line
-  vec3 illuminance{1};          // lux on a facing surface (directional)
-  float innerAngle = 0;         // degrees, half angle of full intensity (spot)
-  float outerAngle = 45;        // degrees, half angle of none
-  uint32_t samples = 8;         // points a line is replaced by
-  std::filesystem::path gobo;   // image in front of a spot; empty for none
-  std::filesystem::path ies;    // LM-63 profile; empty for none
+  vec3 position{0};            // point, spot; one end of a line
+  vec3 end{0};                 // the other end of a line
+  vec3 direction{0, -1, 0};    // unit, the way the light travels
+  vec3 intensity{1};           // cd; of the whole tube for a line
+  vec3 illuminance{1};         // lux on a facing surface (directional)
+  float innerAngle = 0;        // degrees, half angle of full intensity (spot)
+  float outerAngle = 45;       // degrees, half angle of none
+  uint32_t samples = 8;        // points a line is replaced by
+  std::filesystem::path gobo;  // image in front of a spot; empty for none
+  std::filesystem::path ies;   // LM-63 profile; empty for none
 };
 
 enum class PhaseType { isotropic, henyeyGreenstein, nishita };
@@ -121,10 +126,11 @@ struct Medium {
   float extinction = 0;  // 1/m
   float albedo = 0;      // scattering over extinction
   PhaseType phase = PhaseType::isotropic;
-  float g = 0;           // Henyey-Greenstein
+  float g = 0;  // Henyey-Greenstein
 };
 
-// An illuminance meter. Texel (column i, row j) spans u (i..i+1)/width and v (j..j+1)/height from `corner`; faces cross(v, u).
+// An illuminance meter. Texel (column i, row j) spans u (i..i+1)/width and v (j..j+1)/height from `corner`;
+// faces cross(v, u).
 struct Sensor {
   std::string name;
   vec3 corner{0};

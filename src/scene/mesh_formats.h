@@ -1,0 +1,15 @@
+// One reader for each mesh format: from the bytes of a file to a finished mesh (finishMesh). `source` names
+// the file in errors. All throw InputError, and nothing else, on whatever bytes they are given.
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+
+namespace nephroid {
+
+Mesh readObj(const std::string& bytes, const std::string& source);
+Mesh readPly(const std::string& bytes, const std::string& source);
+Mesh read3ds(const std::string& bytes, const std::string& source);
+
+}  // namespace nephroid

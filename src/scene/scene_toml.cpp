@@ -1,0 +1,126 @@
+#include "scene/scene_toml.h"
+
+#include <sstream>
+
+#include "core/error.h"
+#include "scene/framing.h"
+#include "scene/mesh_file.h"
+
+namespace nephroid {
+namespace {
+
+constexpr std::uintmax_t kLargestSceneFile = std::uintmax_t{64} << 20;  // bytes
+constexpr double kLargestSensorSide = 16384;                            // texels
+constexpr double kLargestSensor = 1 << 26;                              // texels
+
+toml::table parse(const std::filesystem::path& file) {
+  const std::string name = oneLine(file.string());
+  const std::string text = readFile(file, kLargestSceneFile);
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(oneLine(name + ":" + std::to_string(error.source().begin.line) +
+                             ": not TOML: " + std::string(error.description())));
+  }
+}
+
+std::optional<TomlTable> section(const toml::table& root, TomlTable& top, const std::string& key,
+                                 const std::string& file) {
+  if (!top.has(key)) return std::nullopt;
+  const toml::table* table = root.get_as<toml::table>(key);
+  if (!table) top.fail(key, "must be written [" + key + "], once");
+  return TomlTable(*table, file, "[" + key + "]");
+}
+
+Camera readCamera(TomlTable table) {
+  Camera camera;
+  camera.position = table.requiredVector3("position");
+  camera.target = table.vector3("target").value_or(camera.target);
+  camera.verticalFov = static_cast<float>(table.number("fov", {0.01, 179}).value_or(camera.verticalFov));
+  camera.exposure = static_cast<float>(table.number("exposure", {1e-12, 1e12}).value_or(camera.exposure));
+  if (!(glm::distance(camera.position, camera.target) > 0)) {
+    table.fail("position", "is the target as well; they must differ");
+  }
+  camera.up = upFor(camera.target - camera.position);
+  table.finish();
+  return camera;
+}
+
+Environment readEnvironment(TomlTable table) {
+  Environment environment;
+  environment.ambient = table.numberOrRgb("ambient", kNotNegative).value_or(environment.ambient);
+  environment.background = table.numberOrRgb("background", kNotNegative).value_or(environment.background);
+  table.finish();
+  return environment;
+}
+
+Medium readMedium(TomlTable table) {
+  Medium medium;
+  const auto extinction = table.number("extinction", kNotNegative);
+  if (!extinction) table.fail("extinction", "is missing; a medium needs it (1/m)");
+  medium.extinction = static_cast<float>(*extinction);
+  medium.albedo = static_cast<float>(table.number("albedo", kFraction).value_or(1));
+  constexpr std::array kTypes{PhaseType::isotropic, PhaseType::henyeyGreenstein, PhaseType::nishita};
+  medium.phase = kTypes[table.choice("phase", {"isotropic", "henyey-greenstein", "nishita"})];
+  if (medium.phase == PhaseType::henyeyGreenstein) {
+    medium.g = static_cast<float>(table.number("g", {-0.999, 0.999}).value_or(0));
+  }
+  table.finish();
+  return medium;
+}
+
+void readSensors(std::vector<TomlTable> tables, Scene& scene) {
+  for (TomlTable& table : tables) {
+    Sensor sensor;
+    table.requiredText("name");
+    sensor.name = readName(table, scene.sensors, "");
+    table.setName("[[sensor]] \"" + sensor.name + "\"");
+    sensor.corner = table.requiredVector3("corner");
+    sensor.u = table.requiredVector3("u");
+    sensor.v = table.requiredVector3("v");
+    const glm::dvec3 u = sensor.u, v = sensor.v;
+    if (!(glm::length(glm::cross(v, u)) > 1e-6 * glm::length(u) * glm::length(v))) {
+      table.fail("u", "and \"v\" span no area; they must be longer than 0 and not parallel");
+    }
+    const auto resolution = table.integers2("resolution", {1, kLargestSensorSide});
+    sensor.resolution = resolution.value_or(sensor.resolution);
+    if (static_cast<double>(sensor.resolution.x) * sensor.resolution.y > kLargestSensor) {
+      table.fail("resolution", "is more than 2^26 texels; make it smaller");
+    }
+    table.finish();
+    scene.sensors.push_back(sensor);
+  }
+}
+
+}  // namespace
+
+Scene loadTomlScene(const std::filesystem::path& file, double time) {
+  const toml::table root = parse(file);
+  const std::string name = oneLine(file.string());
+  TomlTable top(root, name, "");
+  Scene scene;
+  scene.file = file;
+  scene.time = time;
+  auto camera = section(root, top, "camera", name);
+  auto environment = section(root, top, "environment", name);
+  auto medium = section(root, top, "medium", name);
+  auto materials = top.tables("material");
+  auto objects = top.tables("object");
+  auto lights = top.tables("light");
+  auto sensors = top.tables("sensor");
+  top.finish();
+  if (environment) scene.environment = readEnvironment(*environment);
+  if (medium) scene.medium = readMedium(*medium);
+  readMaterials(std::move(materials), scene);
+  readObjects(std::move(objects), scene);
+  readLights(std::move(lights), scene);
+  readSensors(std::move(sensors), scene);
+  if (camera) {
+    scene.camera = readCamera(*camera);
+  } else {
+    scene.camera = framingCamera(scene);
+  }
+  return scene;
+}
+
+}  // namespace nephroid

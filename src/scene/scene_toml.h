@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene.h"
+#include "scene/toml_table.h"
+
+namespace nephroid {
+
+// A scene file as INTERFACE describes it. Throws InputError.
+Scene loadTomlScene(const std::filesystem::path& file, double time);
+
+// The parts of it. Each adds to `scene` what its tables say.
+void readMaterials(std::vector<TomlTable> tables, Scene& scene);
+void readObjects(std::vector<TomlTable> tables, Scene& scene);
+void readLights(std::vector<TomlTable> tables, Scene& scene);
+
+// The mesh of an [[object]] that has a `shape`; sets object.water for water.
+Mesh readShape(TomlTable& table, Object& object, double time);
+
+// The key `name`, or `byDefault`; an error where one of `existing` has it already.
+template <class Named>
+std::string readName(TomlTable& table, const std::vector<Named>& existing, const std::string& byDefault) {
+  const auto given = table.text("name");
+  const std::string name = given.value_or(byDefault);
+  for (const Named& other : existing) {
+    if (other.name == name) table.fail("name", "\"" + name + "\" is taken already; names must differ");
+  }
+  return name;
+}
+
+}  // namespace nephroid

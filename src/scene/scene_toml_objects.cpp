@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <map>
+
+#include "core/error.h"
+#include "scene/mesh_checks.h"
+#include "scene/mesh_file.h"
+#include "scene/scene_toml.h"
+
+namespace nephroid {
+namespace {
+
+constexpr Range kIor{0.1, 10};
+
+Material readDielectric(TomlTable& table) {
+  Material material;
+  material.color = vec3(1);
+  material.ior = table.numberOrRgb("ior", kIor).value_or(material.ior);
+  const auto color = table.vector3("attenuation_color", kFraction);
+  const auto distance = table.number("attenuation_distance", kPositive);
+  if (color && !distance) table.fail("attenuation_color", "needs \"attenuation_distance\" (m) beside it");
+  material.attenuationColor = color.value_or(material.attenuationColor);
+  if (distance) material.attenuationDistance = static_cast<float>(*distance);
+  return material;
+}
+
+uint32_t materialNamed(TomlTable& table, const Scene& scene) {
+  const std::string name = table.requiredText("material");
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < scene.materials.size(); ++i) {
+    if (scene.materials[i].name == name) return i;
+    names.push_back(scene.materials[i].name);
+  }
+  const std::string nearest = nearestName(name, names);
+  table.fail("material", "is \"" + name + "\", and no [[material]] has that name" +
+                             (nearest.empty() ? "" : "; the nearest is \"" + nearest + "\""));
+}
+
+// Euler angles in degrees, applied X first.
+quat rotationOf(vec3 degrees) {
+  const vec3 angles = glm::radians(degrees);
+  return glm::angleAxis(angles.z, vec3(0, 0, 1)) * glm::angleAxis(angles.y, vec3(0, 1, 0)) *
+         glm::angleAxis(angles.x, vec3(1, 0, 0));
+}
+
+struct ObjectTransform {
+  Placement placement;
+  std::optional<float> fit;
+};
+
+ObjectTransform readTransform(TomlTable& table) {
+  ObjectTransform transform;
+  transform.placement.translation = table.vector3("translation").value_or(vec3(0));
+  transform.placement.rotation = rotationOf(table.vector3("rotation").value_or(vec3(0)));
+  const auto scale = table.number("scale", kPositive);
+  const auto fit = table.number("fit", kPositive);
+  if (scale && fit) table.fail("fit", "and \"scale\" cannot both be given");
+  if (fit) transform.fit = static_cast<float>(*fit);
+  transform.placement.scale = static_cast<float>(scale.value_or(1));
+  return transform;
+}
+
+// Centres the box on the origin and makes its longest side `fit`, before the rest of the placement.
+Placement fitted(const ObjectTransform& transform, std::pair<vec3, vec3> box) {
+  Placement placement = transform.placement;
+  if (!transform.fit) return placement;
+  const vec3 size = box.second - box.first;
+  placement.scale = *transform.fit / std::max({size.x, size.y, size.z});
+  placement.translation += placement.rotation * (-placement.scale * 0.5f * (box.first + box.second));
+  return placement;
+}
+
+class ObjectReader {
+ public:
+  explicit ObjectReader(Scene& scene) : scene_(scene) {}
+
+  void read(TomlTable& table) {
+    Object object;
+    object.name = readName(table, scene_.objects, "object " + std::to_string(scene_.objects.size() + 1));
+    table.setName("[[object]] \"" + object.name + "\"");
+    if (table.has("shape") + table.has("mesh") != 1) {
+      throw InputError(oneLine(table.at("") + "needs one of \"shape\" and \"mesh\""));
+    }
+    object.material = materialNamed(table, scene_);
+    const ObjectTransform transform = readTransform(table);
+    object.mesh = table.has("mesh") ? meshFrom(table) : added(readShape(table, object, scene_.time));
+    object.placement = fitted(transform, boundingBox(scene_.meshOf(object)));
+    table.finish();
+    scene_.objects.push_back(object);
+  }
+
+ private:
+  uint32_t added(Mesh mesh) {
+    scene_.meshes.push_back(std::move(mesh));
+    return static_cast<uint32_t>(scene_.meshes.size() - 1);
+  }
+
+  uint32_t meshFrom(TomlTable& table) {
+    const std::string name = table.requiredText("mesh");
+    const auto path = findModel(name, scene_.file.parent_path(), table.at("mesh"));
+    const auto known = meshOfFile_.find(path);
+    if (known != meshOfFile_.end()) return known->second;
+    Mesh mesh = loadMeshFile(path);
+    mesh.name = name;
+    return meshOfFile_[path] = added(std::move(mesh));
+  }
+
+  Scene& scene_;
+  std::map<std::filesystem::path, uint32_t> meshOfFile_;
+};
+
+}  // namespace
+
+void readMaterials(std::vector<TomlTable> tables, Scene& scene) {
+  for (TomlTable& table : tables) {
+    table.requiredText("name");
+    const std::string name = readName(table, scene.materials, "");
+    table.setName("[[material]] \"" + name + "\"");
+    if (!table.has("type")) table.requiredText("type");
+    constexpr std::array kTypes{MaterialType::diffuse, MaterialType::dielectric, MaterialType::mirror};
+    const MaterialType type = kTypes[table.choice("type", {"diffuse", "dielectric", "mirror"})];
+    Material material;
+    if (type == MaterialType::dielectric) {
+      material = readDielectric(table);
+    } else {
+      const vec3 byDefault(type == MaterialType::mirror ? 1.0f : 0.8f);
+      material.color = table.numberOrRgb("color", kFraction).value_or(byDefault);
+    }
+    material.name = name;
+    material.type = type;
+    table.finish();
+    scene.materials.push_back(material);
+  }
+}
+
+void readObjects(std::vector<TomlTable> tables, Scene& scene) {
+  ObjectReader reader(scene);
+  for (TomlTable& table : tables) reader.read(table);
+}
+
+}  // namespace nephroid
