@@ -1,0 +1,30 @@
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "transport/table/table.h"
+
+namespace nephroid {
+
+OutgoingRay lookUp(const TransportTable& table, uint32_t vertex, vec3 direction, uint32_t band) {
+  return lookUpRay(table.view(), table.view().bands == 1 ? 0 : band, vertex, direction);
+}
+
+void tableRays(const TransportTable& table, const Mesh& mesh, const Placement& placement,
+               const Material& material, const Emitter& emitter, uint32_t band, std::span<OutgoingRay> rays) {
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  oneapi::tbb::parallel_for(Range(0, rays.size(), 256), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const vec3 incident = emitterDirection(emitter, placement.point(mesh.positions[i]));
+      const vec3 local = placement.inverseDirection(incident) * vertexFrame(mesh.normals[i]);
+      OutgoingRay ray = lookUp(table, static_cast<uint32_t>(i), local, band);
+      ray.position = placement.point(ray.position);
+      ray.direction = placement.direction(ray.direction);
+      ray.pathLength *= placement.scale;
+      ray.transmittance *= volumeTransmittance(material.attenuationColor,
+                                               material.inverseAttenuationDistance(), ray.pathLength);
+      rays[i] = ray;
+    }
+  });
+}
+
+}  // namespace nephroid

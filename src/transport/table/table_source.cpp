@@ -1,0 +1,29 @@
+#include "transport/table/table_source.h"
+
+namespace nephroid {
+
+bool hasTable(const Scene& scene, const Object& object) {
+  const Material& material = scene.materialOf(object);
+  return material.type == MaterialType::dielectric && !material.thinWalled;
+}
+
+TableSource::TableSource(const Scene& sceneOfTables, std::vector<std::optional<TransportTable>> tableOfObject,
+                         const TransportSource& tracedSource)
+    : scene(sceneOfTables), tables(std::move(tableOfObject)), traced(tracedSource) {}
+
+bool TableSource::isTabulated(const TransportQuery& query) const {
+  return tables[query.object] && query.paths == Paths::transmission && query.media.size == 0;
+}
+
+void TableSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const {
+  if (!isTabulated(query)) return traced.vertexRays(query, rays);
+  const Object& object = scene.objects[query.object];
+  tableRays(*tables[query.object], scene.meshOf(object), object.placement, scene.materialOf(object),
+            query.emitter, query.channel, rays);
+}
+
+OutgoingRay TableSource::rayAt(const TransportQuery& query, const SurfacePoint& point) const {
+  return traced.rayAt(query, point);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,37 @@
+// Outgoing rays looked up in light transport tables.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "transport/source.h"
+#include "transport/table/table.h"
+
+namespace nephroid {
+
+// Whether light through the object can be tabulated: it is of a clear material with a volume.
+bool hasTable(const Scene& scene, const Object& object);
+
+// Rays looked up at the vertices of casters that have a table, wherever they stand. A table knows its caster
+// alone: not what stands before or behind it, nor where a ray ends. What no table holds (mirrors, reflection,
+// a light inside a medium) is traced.
+class TableSource : public TransportSource {
+ public:
+  // `tables` has one for each object of the scene, or none where the object is to be traced. Scene and
+  // `traced` must outlive this.
+  TableSource(const Scene& scene, std::vector<std::optional<TransportTable>> tables,
+              const TransportSource& traced);
+
+  void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const override;
+  bool refines() const override { return false; }
+  OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override;
+
+ private:
+  bool isTabulated(const TransportQuery& query) const;
+
+  const Scene& scene;
+  std::vector<std::optional<TransportTable>> tables;
+  const TransportSource& traced;
+};
+
+}  // namespace nephroid
