@@ -25,7 +25,11 @@ function(nephroid_shaders target)
               -P ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
       DEPENDS ${words} ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
       VERBATIM)
-    target_sources(${target} PRIVATE ${header})
+    list(APPEND headers ${header})
   endforeach()
+  # A custom command is known only in the folder it is written in, a target's dependencies everywhere.
+  string(MD5 folder ${CMAKE_CURRENT_SOURCE_DIR})
+  add_custom_target(${target}_shaders_${folder} DEPENDS ${headers})
+  add_dependencies(${target} ${target}_shaders_${folder})
   target_include_directories(${target} PRIVATE ${generated})
 endfunction()

@@ -1,0 +1,75 @@
+// The frame: from a scene as it stands to luminance and a picture.
+#pragma once
+
+#include "core/image.h"
+#include "core/stats.h"
+#include "render/frame_resources.h"
+#include "render/shadow_maps.h"
+#include "techniques/technique.h"
+
+namespace nephroid {
+
+struct RenderSettings {
+  uvec2 size{640, 480};           // pixels
+  uint32_t shadowMapSize = 1024;  // texels along a side
+};
+
+// A pinhole camera as passes are told of it. World space.
+struct View {
+  mat4 worldToClip;  // y down, depth 1 near to 0 at infinity
+  vec3 eye;          // m
+  vec3 forward;      // unit
+  vec3 right;        // half the width of what is seen at distance 1
+  vec3 up;           // half its height
+};
+
+class Renderer {
+ public:
+  // Device and technique outlive it. `scene` gives objects, meshes and textures; what moves is taken at each
+  // `render`.
+  Renderer(gpu::Device& device, const Scene& scene, const RenderSettings& settings, Technique& technique);
+
+  // A whole frame, with all that a moved light, camera or object would change. Returns the time in each pass,
+  // on the host and on the device, in the order in which they ran.
+  std::vector<PassTime> render(const Scene& scene);
+
+  // Of the last frame: exposed, tone-mapped, sRGB, RGB.
+  ByteImage picture() const;
+
+  // Of the last frame: R,G,B luminance (nit); direct.R,G,B and caustics.R,G,B, the parts of it that came from
+  // light that met no caster and from light that met one; depth.Z (m along the view, 0 where there is
+  // nothing) and normal.X,Y,Z of the nearest surface.
+  Image layers();
+
+  GpuScene& gpuScene() { return gpuScene_; }
+
+ private:
+  void planShadows(const Scene& scene);
+  void drawShadowMaps(gpu::CommandList& commands);
+  void drawReceivers(gpu::CommandList& commands);
+  void drawCasters(gpu::CommandList& commands);
+  void lightDirectly(gpu::CommandList& commands);
+  void composite(gpu::CommandList& commands, const gpu::Program& program);
+  void toneMap(gpu::CommandList& commands);
+  void drawSurfaces(gpu::CommandList& commands, const gpu::Program& program, MaterialType type);
+
+  gpu::Device& device_;
+  Technique& technique_;
+  RenderSettings settings_;
+  GpuScene gpuScene_;
+  FramePrograms programs_;
+  FrameImages images_;
+  gpu::Image shadowMaps_;
+  gpu::Sampler shadowSampler_;
+  gpu::Buffer emitters_;
+  gpu::Buffer shadowProjections_;
+
+  // Of the frame being made.
+  View view_{};
+  Environment environment_;
+  float exposure_ = 1;
+  std::vector<MeshExtent> extents_;
+  ShadowPlan shadows_;
+};
+
+}  // namespace nephroid

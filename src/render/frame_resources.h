@@ -1,0 +1,42 @@
+// The images a frame is made in and the programs that make it.
+#pragma once
+
+#include "gpu/program.h"
+#include "gpu/resources.h"
+
+namespace nephroid {
+
+// Of the frame's size; rgba32f unless it says otherwise.
+struct FrameImages {
+  gpu::Image depth;             // d32, reversed: 1 near, 0 infinitely far
+  gpu::Image receiverPosition;  // m, a = 1 where there is a receiver
+  gpu::Image receiverNormal;    // unit, on the side of the viewer
+  gpu::Image receiverAlbedo;    // a = material
+  gpu::Image casterPosition;    // m, a = object + 1 where a caster is in front of the receiver, else 0
+  gpu::Image casterNormal;      // unit, on the side of the viewer, a = material + 1, else 0
+  gpu::Image opticalDepth;  // of the dielectrics in front of the receiver: rgb by absorption, a by reflection
+  gpu::Image directLux;     // a = 1 where there is a receiver
+  gpu::Image causticsLux;
+  gpu::Image luminance;          // nit
+  gpu::Image directLuminance;    // nit; filled for layers only
+  gpu::Image causticsLuminance;  // nit; filled for layers only
+  gpu::Image picture;            // rgba8, sRGB
+};
+
+FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t height);
+
+struct FramePrograms {
+  gpu::Program shadow;
+  gpu::Program receiver;
+  gpu::Program mirror;
+  gpu::Program viewTransmittance;
+  gpu::Program dielectric;
+  gpu::Program direct;
+  gpu::Program composite;
+  gpu::Program compositeLayers;
+  gpu::Program toneMapping;
+};
+
+FramePrograms createFramePrograms(gpu::Device& device);
+
+}  // namespace nephroid

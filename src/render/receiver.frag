@@ -1,0 +1,21 @@
+// The nearest diffuse surface behind a pixel.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "render/frame_data.h"
+
+layout(push_constant, scalar) uniform Constants { SurfaceConstants constants; };
+layout(set = 0, binding = 0) uniform sampler2D colorTexture;
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 texcoord;
+layout(location = 0) out vec4 receiverPosition;  // a = 1
+layout(location = 1) out vec4 receiverNormal;    // on the side of the viewer
+layout(location = 2) out vec4 receiverAlbedo;    // a = material
+
+void main() {
+  const uint materialIndex = constants.objects.object[constants.object].material;
+  const SceneMaterial material = constants.materials.material[materialIndex];
+  receiverPosition = vec4(position, 1);
+  receiverNormal = vec4(normalize(gl_FrontFacing ? normal : -normal), 0);
+  receiverAlbedo = vec4(material.color * texture(colorTexture, texcoord).rgb, materialIndex);
+}

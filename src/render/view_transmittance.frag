@@ -1,0 +1,29 @@
+// What the dielectrics between the viewer and the receiver leave of a ray that goes straight through them. Surfaces add up in any
+// order: one that the ray enters by adds the length from it to the receiver, one that it leaves by takes that off again.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "render/frame_data.h"
+
+#include "optics/refraction.h"
+
+layout(push_constant, scalar) uniform Constants { SurfaceConstants constants; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 texcoord;
+layout(location = 0) out vec4 opticalDepth;  // rgb of absorption, a of Fresnel reflection
+
+void main() {
+  const SceneMaterial material = constants.materials.material[constants.objects.object[constants.object].material];
+  const vec4 receiver = imageLoad(receiverPosition, ivec2(gl_FragCoord.xy));
+  // Without a receiver every way in has a way out, and the lengths are counted from the eye.
+  const float end = receiver.a > 0 ? distance(receiver.xyz, constants.eye) : 0;
+  const vec3 fromEye = position - constants.eye;
+  const float start = length(fromEye);
+  const float inside = gl_FrontFacing ? end - start : start - end;
+  const vec3 absorption =
+      -log(max(material.attenuationColor, vec3(1e-6))) * material.inverseAttenuationDistance;
+  const float cosine = min(abs(dot(fromEye, normalize(normal))) / start, 1);
+  const float reflectance = fresnelReflectance(cosine, 1 / material.ior);
+  opticalDepth = vec4(absorption * inside, -log(max(1 - reflectance, 1e-3)));
+}
