@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "optics/curved_triangle.h"
+
 namespace nephroid {
 namespace {
 
@@ -17,10 +19,30 @@ constexpr std::size_t kBlock = 64;  // triangles whose beams one task makes
 constexpr float kInset = 1e-3f;
 
 struct Corner {
-  SurfacePoint point;
+  vec3 weights;   // barycentric, in the mesh's triangle
+  vec3 position;  // m, on the surface
   OutgoingRay ray;
 };
 using Triangle = std::array<Corner, 3>;
+
+// A triangle of the caster's mesh. World space.
+struct Surface {
+  mat3 positions{1};  // a corner a column
+  mat3 normals{1};
+  vec3 geometricNormal{0};
+  uint32_t patch = 0;
+  bool isCurved = false;
+
+  SurfacePoint at(vec3 weights) const {
+    SurfacePoint point;
+    point.position = point.flatPosition = positions * weights;
+    if (isCurved) point.position += curvedOffset(point.flatPosition, weights, positions, normals);
+    point.normal = normalize(normals * weights);
+    point.geometricNormal = geometricNormal;
+    point.patch = patch;
+    return point;
+  }
+};
 
 // Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983), positive when it is seen counter-clockwise.
 float solidAngle(vec3 a, vec3 b, vec3 c) {
@@ -30,11 +52,12 @@ float solidAngle(vec3 a, vec3 b, vec3 c) {
   return float(-2 * std::atan2(glm::dot(p, glm::cross(q, r)), denominator));
 }
 
+// Makes the beams of one triangle of the mesh.
 class Builder {
  public:
-  Builder(const Scene& sceneOf, const TransportSource& sourceOf, const TransportQuery& queryOf, vec3 color,
-          const BeamSettings& settingsOf)
-      : scene(sceneOf), source(sourceOf), query(queryOf), bandColor(color), settings(settingsOf),
+  Builder(const TransportSource& sourceOf, const TransportQuery& queryOf, vec3 color, const BeamSettings& settingsOf,
+          const Surface& surfaceOf)
+      : source(sourceOf), query(queryOf), bandColor(color), settings(settingsOf), surface(surfaceOf),
         facing(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f) {}
 
   void add(const Triangle& triangle, uint32_t forcedCuts, BeamSet& set) const {
@@ -51,7 +74,7 @@ class Builder {
 
  private:
   vec3 incident(const Triangle& t) const {
-    return bandColor * glm::max(facing * fluxOnto(query.emitter, t[0].point.position, t[1].point.position, t[2].point.position),
+    return bandColor * glm::max(facing * fluxOnto(query.emitter, t[0].position, t[1].position, t[2].position),
                                 vec3(0));
   }
 
@@ -70,19 +93,13 @@ class Builder {
            (!arrivesA || (t[0].ray.signature == t[1].ray.signature && t[0].ray.signature == t[2].ray.signature));
   }
 
-  Corner between(const Triangle& triangle, const Corner& a, const Corner& b) const {
+  Corner between(const Triangle& t, const Corner& a, const Corner& b) const {
     Corner middle;
-    middle.point.position = 0.5f * (a.point.position + b.point.position);
-    middle.point.normal = normalize(a.point.normal + b.point.normal);
-    middle.point.patch = a.point.patch;
-    middle.ray = source.rayAt(query, inset(triangle, middle.point));
+    middle.weights = 0.5f * (a.weights + b.weights);
+    middle.position = surface.at(middle.weights).position;
+    const vec3 center = (t[0].weights + t[1].weights + t[2].weights) / 3.0f;
+    middle.ray = source.rayAt(query, surface.at(mix(middle.weights, center, kInset)));
     return middle;
-  }
-
-  static SurfacePoint inset(const Triangle& triangle, SurfacePoint point) {
-    const vec3 center = (triangle[0].point.position + triangle[1].point.position + triangle[2].point.position) / 3.0f;
-    point.position += kInset * (center - point.position);
-    return point;
   }
 
   // Whether the ray at a side's middle lies off the middle of the rays at its ends by more than the tolerance.
@@ -160,11 +177,11 @@ class Builder {
     }
   }
 
-  const Scene& scene;
   const TransportSource& source;
   const TransportQuery& query;
   const vec3 bandColor;
   const BeamSettings& settings;
+  const Surface& surface;
   const float facing;  // -1 where the light stands inside the caster and meets its triangles from behind
 };
 
@@ -175,6 +192,18 @@ float extentOf(const Mesh& mesh) {
     upper = glm::max(upper, p);
   }
   return length(upper - lower);
+}
+
+Surface surfaceOf(const Object& object, const Mesh& mesh, const uvec3& triangle) {
+  Surface surface;
+  for (int i = 0; i < 3; ++i) {
+    surface.positions[i] = object.placement.point(mesh.positions[triangle[i]]);
+    surface.normals[i] = object.placement.direction(mesh.normals[triangle[i]]);
+  }
+  const vec3 doubledArea = cross(surface.positions[1] - surface.positions[0], surface.positions[2] - surface.positions[0]);
+  surface.geometricNormal = doubledArea / std::max(length(doubledArea), 1e-30f);
+  surface.isCurved = mesh.isCurved;
+  return surface;
 }
 
 uint32_t forcedCutsFor(const Mesh& mesh, const uvec3& t, float extent) {
@@ -199,20 +228,17 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
   std::vector<OutgoingRay> rays(mesh.positions.size());
   source.vertexRays(query, rays);
 
-  const Builder builder(scene, source, query, bandColor, settings);
   const float extent = extentOf(mesh);
   const std::size_t blocks = (mesh.triangles.size() + kBlock - 1) / kBlock;
   std::vector<BeamSet> parts(blocks);
   oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
     const std::size_t end = std::min(mesh.triangles.size(), (block + 1) * kBlock);
     for (std::size_t t = block * kBlock; t < end; ++t) {
+      const Surface surface = surfaceOf(object, mesh, mesh.triangles[t]);
       Triangle triangle;
-      for (int i = 0; i < 3; ++i) {
-        const uint32_t vertex = mesh.triangles[t][i];
-        triangle[i] = {{object.placement.point(mesh.positions[vertex]), object.placement.direction(mesh.normals[vertex]), 0},
-                       rays[vertex]};
-      }
-      builder.add(triangle, forcedCutsFor(mesh, mesh.triangles[t], extent), parts[block]);
+      for (int i = 0; i < 3; ++i) triangle[i] = {mat3(1)[i], surface.positions[i], rays[mesh.triangles[t][i]]};
+      Builder(source, query, bandColor, settings, surface)
+          .add(triangle, forcedCutsFor(mesh, mesh.triangles[t], extent), parts[block]);
     }
   });
 

@@ -65,6 +65,8 @@ struct Mesh {
   std::vector<uvec3> triangles;
   bool isClosed = false;          // every edge has two faces after joining equal positions
   uint32_t droppedTriangles = 0;  // triangles without an area, left out when the mesh was made
+  // The surface bends between vertices as their normals say (shapes); otherwise its triangles are flat.
+  bool isCurved = false;
 };
 
 // A rigid motion and a uniform scale; anything else is baked into the mesh when it is loaded, so that what is

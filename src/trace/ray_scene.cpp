@@ -7,6 +7,7 @@
 #include <atomic>
 
 #include "core/error.h"
+#include "optics/curved_triangle.h"
 #include "trace/smooth_patches.h"
 
 #if __has_include(<embree4/rtcore.h>)
@@ -151,14 +152,25 @@ struct RayScene::Impl {
     hit.patch = traced.patches[hit.triangle];
     const uvec3& corners = mesh.triangles[hit.triangle];
     const vec3 weights(1 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
-    const vec3& a = mesh.positions[corners.x];
-    const vec3& b = mesh.positions[corners.y];
-    const vec3& c = mesh.positions[corners.z];
-    hit.geometricNormal = object.placement.direction(glm::normalize(glm::cross(b - a, c - a)));
+    const mat3 positions(mesh.positions[corners.x], mesh.positions[corners.y], mesh.positions[corners.z]);
     const mat3 normals(mesh.normals[corners.x], mesh.normals[corners.y], mesh.normals[corners.z]);
-    hit.normal = object.placement.direction(glm::normalize(normals * weights));
+    const vec3 flatNormal = glm::normalize(glm::cross(positions[1] - positions[0], positions[2] - positions[0]));
+    hit.geometricNormal = object.placement.direction(flatNormal);
     // From the triangle rather than along the ray: nearer to the surface when the ray is long.
-    hit.position = object.placement.point(mat3(a, b, c) * weights);
+    const vec3 flat = positions * weights;
+    hit.flatPosition = object.placement.point(flat);
+    if (!mesh.isCurved) {
+      hit.position = hit.flatPosition;
+      hit.normal = object.placement.direction(glm::normalize(normals * weights));
+      return;
+    }
+    // On along the ray to the plane through the curved surface's point, and the smooth normal over there.
+    const vec3 direction =
+        object.placement.inverseDirection(vec3(query.ray.dir_x, query.ray.dir_y, query.ray.dir_z));
+    const vec3 rise = curvedOffset(flat, weights, positions, normals);
+    const vec3 curved = flat + alongRayToPlane(direction, rise, flatNormal);
+    hit.position = object.placement.point(curved);
+    hit.normal = object.placement.direction(glm::normalize(normals * barycentricOf(curved, positions)));
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "optics/curved_triangle.h"
 #include "optics/refraction.h"
 
 namespace nephroid {
@@ -128,7 +129,9 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
   hit.object = object;
   hit.patch = entry.patch;
   hit.position = entry.position;
-  hit.normal = hit.geometricNormal = entry.normal;
+  hit.flatPosition = entry.flatPosition;
+  hit.normal = entry.normal;
+  hit.geometricNormal = entry.geometricNormal;
   for (uint32_t crossing = 0; crossing < kMaximumCrossings; ++crossing) {
     const Material& material = *materials[hit.object];
     const bool entering = dot(ray.direction, hit.geometricNormal) < 0;
@@ -144,7 +147,9 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
       ray.flags |= kRayLost;
       return ray;
     }
-    const bool goesOn = rays.intersect({ray.position, ray.direction, rays.selfIntersectionDistance()}, hit);
+    // The triangles are flat: the ray goes on from where its line meets the one it was on.
+    const vec3 start = ray.position + alongRayToPlane(ray.direction, hit.flatPosition - ray.position, hit.geometricNormal);
+    const bool goesOn = rays.intersect({start, ray.direction, rays.selfIntersectionDistance()}, hit);
     if (goesOn && materials[hit.object]->isCaster()) {
       absorb(materials, hit.distance, walk);
       continue;

@@ -28,12 +28,12 @@ bool TracedSource::isLit(const TransportQuery& query, const SurfacePoint& point,
                                 ? std::numeric_limits<float>::infinity()
                                 : glm::length(query.emitter.position - point.position);
   const float margin = follower.rayScene().selfIntersectionDistance();
-  return !follower.rayScene().occluded({point.position, -direction, margin, farDistance - margin});
+  return !follower.rayScene().occluded({point.flatPosition, -direction, margin, farDistance - margin});
 }
 
 OutgoingRay TracedSource::rayAt(const TransportQuery& query, const SurfacePoint& point) const {
   const vec3 direction = emitterDirection(query.emitter, point.position);
-  const bool arrivesFromOutside = dot(direction, point.normal) < 0;
+  const bool arrivesFromOutside = dot(direction, point.geometricNormal) < 0;
   OutgoingRay ray{};
   ray.position = point.position;
   ray.direction = direction;
@@ -65,9 +65,11 @@ void TracedSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay
       patches[mesh.triangles[t][corner]] = follower.rayScene().patchOf(object.mesh, t);
   using Range = oneapi::tbb::blocked_range<std::size_t>;
   oneapi::tbb::parallel_for(Range(0, mesh.positions.size(), 64), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
-      rays[i] = rayAt(query, {object.placement.point(mesh.positions[i]),
-                              object.placement.direction(mesh.normals[i]), patches[i]});
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const vec3 position = object.placement.point(mesh.positions[i]);
+      const vec3 normal = object.placement.direction(mesh.normals[i]);
+      rays[i] = rayAt(query, {position, position, normal, normal, patches[i]});
+    }
   });
 }
 
