@@ -27,6 +27,7 @@ uint32_t flatSegmentsOf(Density density, const Count& count) {
 Mesh finished(Mesh mesh, const char* name) {
   mesh.name = name;
   finishMesh(mesh, name);
+  mesh.isCurved = true;
   return mesh;
 }
 
@@ -311,6 +312,7 @@ Mesh makeWater(const Water& water, double time) {
       mesh.triangles.emplace_back(b, d, c);
     }
   }
+  mesh.isCurved = true;
   return mesh;
 }
 
