@@ -29,6 +29,9 @@ void embreeIntersect(RTCScene scene, RTCRayHit& query) {
 void embreeOccluded(RTCScene scene, RTCRay& ray) {
   rtcOccluded1(scene, &ray);
 }
+void embreeOccluded(RTCScene scene, const int* valid, RTCRay8& rays) {
+  rtcOccluded8(valid, scene, &rays);
+}
 #else
 void embreeIntersect(RTCScene scene, RTCRayHit& query) {
   RTCIntersectContext context;
@@ -39,6 +42,12 @@ void embreeOccluded(RTCScene scene, RTCRay& ray) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(scene, &context, &ray);
+}
+void embreeOccluded(RTCScene scene, const int* valid, RTCRay8& rays) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded8(valid, scene, &context, &rays);
 }
 #endif
 
@@ -51,9 +60,9 @@ oneapi::tbb::enumerable_thread_specific<RayCounter>& rayCounters() {
   return counters;
 }
 
-void countRay() {
+void countRays(uint64_t rays) {
   thread_local RayCounter& counter = rayCounters().local();
-  counter.count.store(counter.count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  counter.count.store(counter.count.load(std::memory_order_relaxed) + rays, std::memory_order_relaxed);
 }
 
 RTCRay embreeRay(const Ray& ray) {
@@ -213,7 +222,7 @@ void RayScene::place(const Scene& scene) {
 }
 
 bool RayScene::intersect(const Ray& ray, Hit& hit) const {
-  countRay();
+  countRays(1);
   RTCRayHit query = embreeQuery(ray);
   embreeIntersect(impl->root(), query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
@@ -222,10 +231,35 @@ bool RayScene::intersect(const Ray& ray, Hit& hit) const {
 }
 
 bool RayScene::occluded(const Ray& ray) const {
-  countRay();
+  countRays(1);
   RTCRay query = embreeRay(ray);
   embreeOccluded(impl->root(), query);
   return query.tfar < 0;
+}
+
+void RayScene::occluded(vec3 origin, std::span<const vec3> directions, float nearDistance,
+                        std::span<uint8_t> isOccluded) const {
+  constexpr std::size_t kWidth = 8;
+  countRays(directions.size());
+  for (std::size_t first = 0; first < directions.size(); first += kWidth) {
+    const std::size_t count = std::min(kWidth, directions.size() - first);
+    alignas(32) int valid[kWidth] = {};
+    RTCRay8 rays{};
+    for (std::size_t i = 0; i < count; ++i) {
+      valid[i] = -1;
+      rays.org_x[i] = origin.x;
+      rays.org_y[i] = origin.y;
+      rays.org_z[i] = origin.z;
+      rays.dir_x[i] = directions[first + i].x;
+      rays.dir_y[i] = directions[first + i].y;
+      rays.dir_z[i] = directions[first + i].z;
+      rays.tnear[i] = nearDistance;
+      rays.tfar[i] = std::numeric_limits<float>::infinity();
+      rays.mask[i] = ~0u;
+    }
+    embreeOccluded(impl->root(), valid, rays);
+    for (std::size_t i = 0; i < count; ++i) isOccluded[first + i] = rays.tfar[i] < 0;
+  }
 }
 
 float RayScene::selfIntersectionDistance() const {
@@ -236,7 +270,9 @@ uint32_t RayScene::patchOf(uint32_t mesh, uint32_t triangle) const {
   return impl->meshes[mesh].patches[triangle];
 }
 
-bool RayScene::isClosed(uint32_t object) const { return impl->meshes[impl->objects[object].mesh].mesh->isClosed; }
+bool RayScene::isClosed(uint32_t object) const {
+  return impl->meshes[impl->objects[object].mesh].mesh->isClosed;
+}
 
 std::size_t RayScene::replay(std::span<const Ray> rays) const {
   using Range = oneapi::tbb::blocked_range<std::size_t>;

@@ -47,6 +47,9 @@ class RayScene {
 
   bool intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;
+  // Whether rays from one origin along each of `directions` meet anything: eight at a time, which is faster.
+  void occluded(vec3 origin, std::span<const vec3> directions, float nearDistance,
+                std::span<uint8_t> isOccluded) const;
 
   // m: rays that leave a surface start this far along, so that they do not meet it again. Grows with the
   // scene's extent.

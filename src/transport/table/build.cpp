@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <functional>
+
 #include "trace/ray_scene.h"
 #include "transport/follow.h"
 #include "transport/table/fill.h"
@@ -28,9 +31,13 @@ TransportTable buildTable(const Mesh& mesh, vec3 ior, const TableSettings& setti
     clear.ior = vec3(bandIor);
     const Follower follower(rayScene, {&clear});
     const SurfacePoint entry{mesh.positions[vertex], mesh.normals[vertex], patches[vertex]};
+    std::vector<vec3> toLight(directions.size());
+    std::vector<uint8_t> isOccluded(directions.size());
+    std::transform(directions.begin(), directions.end(), toLight.begin(), std::negate<>());
+    rayScene.occluded(entry.position, toLight, margin, isOccluded);
     for (std::size_t i = 0; i < directions.size(); ++i) {
       rays[i] = follower.follow(entry, 0, directions[i], {}, {});
-      if (rayScene.occluded({entry.position, -directions[i], margin})) rays[i].flags |= kRayOccluded;
+      if (isOccluded[i]) rays[i].flags |= kRayOccluded;
     }
   };
   return fillTable(key, mesh, trace, progress);

@@ -48,9 +48,10 @@ SHARED_FUNCTION TableEntry tableEntry(TableView table, uint band, uint vertex, u
 // Between unit vectors, along the great circle at constant speed: what interpolating the quaternions that
 // turn onto them gives.
 SHARED_FUNCTION vec3 slerpDirection(vec3 a, vec3 b, float t) {
-  float angle = atan(length(cross(a, b)), dot(a, b));
-  float sine = sin(angle);
-  if (sine < 1e-4f) return dot(a, b) < 0.0f ? (t < 0.5f ? a : b) : normalize((1.0f - t) * a + t * b);
+  float sine = length(cross(a, b));
+  float cosine = dot(a, b);
+  if (sine < 1e-4f) return cosine < 0.0f ? (t < 0.5f ? a : b) : normalize((1.0f - t) * a + t * b);
+  float angle = atan(sine, cosine);
   return (sin((1.0f - t) * angle) * a + sin(t * angle) * b) / sine;
 }
 
