@@ -4,16 +4,20 @@
 
 namespace nephroid {
 
-std::pair<vec3, vec3> worldBounds(const Scene& scene, const Object& object) {
-  const auto [lower, upper] = boundingBox(scene.meshOf(object));
+std::pair<vec3, vec3> placedBounds(const Mesh& mesh, const Placement& placement) {
+  const auto [lower, upper] = boundingBox(mesh);
   vec3 low(std::numeric_limits<float>::infinity()), high = -low;
   for (int corner = 0; corner < 8; ++corner) {
-    const vec3 p = object.placement.point(
+    const vec3 p = placement.point(
         {corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y, corner & 4 ? upper.z : lower.z});
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
   return {low, high};
+}
+
+std::pair<vec3, vec3> worldBounds(const Scene& scene, const Object& object) {
+  return placedBounds(scene.meshOf(object), object.placement);
 }
 
 vec3 upFor(vec3 view) {

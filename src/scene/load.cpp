@@ -1,9 +1,7 @@
 #include "scene/load.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include "core/error.h"
+#include "scene/gltf.h"
 #include "scene/mesh_file.h"
 #include "scene/scene_toml.h"
 
@@ -12,7 +10,8 @@ namespace nephroid {
 Scene loadScene(const std::filesystem::path& file, double time) {
   const std::string extension = lowerExtension(file);
   if (extension == ".toml") return loadTomlScene(file, time);
-  throw InputError(oneLine(file.string() + ": \"" + extension + "\" is no scene; a scene is a .toml file"));
+  if (extension == ".gltf" || extension == ".glb") return loadGltfScene(file, time);
+  throw InputError(oneLine(file.string() + ": a scene is a .toml, .gltf or .glb file"));
 }
 
 }  // namespace nephroid

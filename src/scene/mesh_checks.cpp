@@ -188,7 +188,7 @@ void finishMesh(Mesh& mesh, const std::string& source) {
   // judged before it goes.
   mesh.isClosed = meshTopology(mesh).isClosed();
   std::erase_if(mesh.triangles, [&](uvec3 t) { return hasNoArea(mesh, t); });
-  mesh.droppedTriangles = static_cast<uint32_t>(given - mesh.triangles.size());
+  mesh.droppedTriangles += static_cast<uint32_t>(given - mesh.triangles.size());
   if (mesh.triangles.empty()) throw InputError(source + ": every triangle of the mesh has zero area");
   mergeEqualVertices(mesh);
   if (mesh.normals.empty()) averageNormals(mesh);

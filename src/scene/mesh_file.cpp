@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "scene/gltf.h"
 #include "scene/mesh_formats.h"
 
 namespace nephroid {
@@ -82,11 +83,12 @@ std::filesystem::path findModel(const std::filesystem::path& name,
 }
 
 Mesh loadMeshFile(const std::filesystem::path& file) {
-  const std::string extension = lowerExtension(file);
-  const std::string bytes = readFile(file, kLargestMeshFile);
-  const std::string source = oneLine(file.string());
-  if (extension == ".obj") return readObj(bytes, source);
-  throw InputError(source + ": \"" + oneLine(extension) + "\" is no mesh format known here; known is .obj");
+  const std::string extension = lowerExtension(file), source = oneLine(file.string());
+  if (extension == ".gltf" || extension == ".glb") return loadGltfMesh(file);
+  if (extension == ".obj") return readObj(readFile(file, kLargestMeshFile), source);
+  if (extension == ".ply") return readPly(readFile(file, kLargestMeshFile), source);
+  if (extension == ".3ds") return read3ds(readFile(file, kLargestMeshFile), source);
+  throw InputError(source + ": a mesh is an .obj, .ply, .3ds, .gltf or .glb file");
 }
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// Geometry from a file: OBJ, PLY, 3DS (glTF has its own reader, which also knows materials).
+// Geometry from a file: OBJ, PLY, 3DS, glTF.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 namespace nephroid {
 
-// The geometry of an .obj, .ply or .3ds file as one mesh, by its extension. Normals are the file's where it
-// gives one for every corner, otherwise averaged by area. Texture coordinates are left out: a material given
-// in a scene file has no texture, and vertices split along their seams would only cost rays. Throws
-// InputError.
+// The geometry of an .obj, .ply, .3ds, .gltf or .glb file as one mesh, by its extension. Normals are the
+// file's where it gives one for every corner, otherwise averaged by area. Texture coordinates are left out: a
+// material given in a scene file has no texture, and vertices split along their seams would only cost rays.
+// Throws InputError.
 Mesh loadMeshFile(const std::filesystem::path& file);
 
 // Where a mesh named in a scene file is: beside the scene file, then in the directories of NEPHROID_MODELS

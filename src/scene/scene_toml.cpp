@@ -112,14 +112,10 @@ Scene loadTomlScene(const std::filesystem::path& file, double time) {
   if (environment) scene.environment = readEnvironment(*environment);
   if (medium) scene.medium = readMedium(*medium);
   readMaterials(std::move(materials), scene);
-  readObjects(std::move(objects), scene);
+  const std::optional<Camera> imported = readObjects(std::move(objects), scene);
   readLights(std::move(lights), scene);
   readSensors(std::move(sensors), scene);
-  if (camera) {
-    scene.camera = readCamera(*camera);
-  } else {
-    scene.camera = framingCamera(scene);
-  }
+  scene.camera = camera ? readCamera(*camera) : imported ? *imported : framingCamera(scene);
   return scene;
 }
 

@@ -12,8 +12,10 @@ Scene loadTomlScene(const std::filesystem::path& file, double time);
 
 // The parts of it. Each adds to `scene` what its tables say.
 void readMaterials(std::vector<TomlTable> tables, Scene& scene);
-void readObjects(std::vector<TomlTable> tables, Scene& scene);
 void readLights(std::vector<TomlTable> tables, Scene& scene);
+
+// As above; gives the first camera that was imported.
+std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene);
 
 // The mesh of an [[object]] that has a `shape`; sets object.water for water.
 Mesh readShape(TomlTable& table, Object& object, double time);

@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "core/error.h"
+#include "scene/framing.h"
+#include "scene/gltf.h"
 #include "scene/mesh_checks.h"
 #include "scene/mesh_file.h"
 #include "scene/scene_toml.h"
@@ -69,17 +72,70 @@ Placement fitted(const ObjectTransform& transform, std::pair<vec3, vec3> box) {
   return placement;
 }
 
+std::pair<vec3, vec3> boundsOf(const GltfPart& part) {
+  vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+  for (const Object& object : part.objects) {
+    const auto [lower, upper] = placedBounds(part.meshes[object.mesh], object.placement);
+    low = glm::min(low, lower);
+    high = glm::max(high, upper);
+  }
+  return {low, high};
+}
+
+Placement placed(const Placement& outer, const Placement& inner) {
+  return {outer.point(inner.translation), glm::normalize(outer.rotation * inner.rotation),
+          outer.scale * inner.scale};
+}
+
+Camera placed(const Placement& outer, Camera camera) {
+  camera.position = outer.point(camera.position);
+  camera.target = outer.point(camera.target);
+  camera.up = outer.direction(camera.up);
+  return camera;
+}
+
+template <class Element>
+void append(std::vector<Element>& to, std::vector<Element>& from) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+void addTo(Scene& scene, GltfPart part, const Placement& placement, const std::string& prefix) {
+  for (Material& material : part.materials) {
+    material.name = prefix + material.name;
+    if (material.colorTexture != kNone) material.colorTexture += static_cast<uint32_t>(scene.textures.size());
+  }
+  for (Object& object : part.objects) {
+    object.name = prefix + object.name;
+    object.mesh += static_cast<uint32_t>(scene.meshes.size());
+    object.material += static_cast<uint32_t>(scene.materials.size());
+    object.placement = placed(placement, object.placement);
+  }
+  for (Light& light : part.lights) {
+    light.name = prefix + light.name;
+    light.position = placement.point(light.position);
+    light.direction = placement.direction(light.direction);
+  }
+  append(scene.textures, part.textures);
+  append(scene.materials, part.materials);
+  append(scene.meshes, part.meshes);
+  append(scene.objects, part.objects);
+  append(scene.lights, part.lights);
+}
+
 class ObjectReader {
  public:
   explicit ObjectReader(Scene& scene) : scene_(scene) {}
+
+  std::optional<Camera> camera;  // the first that was imported
 
   void read(TomlTable& table) {
     Object object;
     object.name = readName(table, scene_.objects, "object " + std::to_string(scene_.objects.size() + 1));
     table.setName("[[object]] \"" + object.name + "\"");
-    if (table.has("shape") + table.has("mesh") != 1) {
-      throw InputError(oneLine(table.at("") + "needs one of \"shape\" and \"mesh\""));
+    if (table.has("shape") + table.has("mesh") + table.has("import") != 1) {
+      throw InputError(oneLine(table.at("") + "needs one of \"shape\", \"mesh\" and \"import\""));
     }
+    if (table.has("import")) return import(table, object.name);
     object.material = materialNamed(table, scene_);
     const ObjectTransform transform = readTransform(table);
     object.mesh = table.has("mesh") ? meshFrom(table) : added(readShape(table, object, scene_.time));
@@ -102,6 +158,22 @@ class ObjectReader {
     Mesh mesh = loadMeshFile(path);
     mesh.name = name;
     return meshOfFile_[path] = added(std::move(mesh));
+  }
+
+  // The names of what is imported begin with the object's.
+  void import(TomlTable& table, const std::string& name) {
+    const std::string file = table.requiredText("import");
+    const ObjectTransform transform = readTransform(table);
+    table.finish();
+    const auto path = findModel(file, scene_.file.parent_path(), table.at("import"));
+    if (lowerExtension(path) != ".gltf" && lowerExtension(path) != ".glb") {
+      table.fail("import", "takes a .gltf or .glb file; for the geometry of others use \"mesh\"");
+    }
+    GltfPart part = loadGltf(path);
+    if (part.objects.empty() && transform.fit) table.fail("fit", "cannot be used: the file has no geometry");
+    const Placement placement = transform.fit ? fitted(transform, boundsOf(part)) : transform.placement;
+    if (part.camera && !camera) camera = placed(placement, *part.camera);
+    addTo(scene_, std::move(part), placement, name + "/");
   }
 
   Scene& scene_;
@@ -132,9 +204,10 @@ void readMaterials(std::vector<TomlTable> tables, Scene& scene) {
   }
 }
 
-void readObjects(std::vector<TomlTable> tables, Scene& scene) {
+std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene) {
   ObjectReader reader(scene);
   for (TomlTable& table : tables) reader.read(table);
+  return reader.camera;
 }
 
 }  // namespace nephroid

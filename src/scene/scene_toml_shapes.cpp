@@ -106,6 +106,7 @@ Mesh readShape(TomlTable& table, Object& object, double time) {
        }},
       {"plane",
        [&] { return makePlane(table.vector2("size", kPositive).value_or(vec2(1)), readDensity(table)); }},
+      {"teapot", [&] { return makeTeapot(length(table, "size", 1), readDensity(table)); }},
       {"water", [&] { return readWater(table, object, time); }},
   };
   std::vector<std::string> names;
