@@ -30,7 +30,9 @@ TransportTable buildTable(const Mesh& mesh, vec3 ior, const TableSettings& setti
     clear.type = MaterialType::dielectric;
     clear.ior = vec3(bandIor);
     const Follower follower(rayScene, {&clear});
-    const SurfacePoint entry{mesh.positions[vertex], mesh.normals[vertex], patches[vertex]};
+    const vec3& position = mesh.positions[vertex];
+    const vec3& normal = mesh.normals[vertex];
+    const SurfacePoint entry{position, position, normal, normal, patches[vertex]};
     std::vector<vec3> toLight(directions.size());
     std::vector<uint8_t> isOccluded(directions.size());
     std::transform(directions.begin(), directions.end(), toLight.begin(), std::negate<>());
