@@ -13,12 +13,12 @@ using dvec3 = glm::dvec3;
 
 inline constexpr double kTurn = 2 * std::numbers::pi;
 
-struct SurfacePoint {
+struct ShapePoint {
   dvec3 position;
   dvec3 normal;
 };
 
-inline uint32_t addVertex(Mesh& mesh, const SurfacePoint& point) {
+inline uint32_t addVertex(Mesh& mesh, const ShapePoint& point) {
   mesh.positions.emplace_back(point.position);
   mesh.normals.emplace_back(point.normal);
   return static_cast<uint32_t>(mesh.positions.size() - 1);

@@ -102,7 +102,7 @@ void addWall(Mesh& mesh, double radius, double height, uint32_t around, uint32_t
     const dvec3 axis = aroundY(i, around);
     const double y =
         outward ? between(-height / 2, height / 2, j, along) : between(height / 2, -height / 2, j, along);
-    return SurfacePoint{radius * axis + dvec3(0, y, 0), outward ? axis : -axis};
+    return ShapePoint{radius * axis + dvec3(0, y, 0), outward ? axis : -axis};
   });
 }
 
@@ -116,7 +116,7 @@ Mesh makeSphere(float radius, Density density) {
   for (const uvec3 face : kIcosahedronFaces) {
     addTriangleGrid(mesh, n, [&](uvec3 weights) {
       const dvec3 normal = icospherePoint(face, weights);
-      return SurfacePoint{normal * static_cast<double>(radius), normal};
+      return ShapePoint{normal * static_cast<double>(radius), normal};
     });
   }
   return finished(std::move(mesh), "sphere");
@@ -130,7 +130,7 @@ Mesh makeTorus(float radius, float tube, Density density) {
   addGrid(mesh, n, m, [&](uint32_t i, uint32_t j) {
     const double angle = kTurn * (j % m) / m;
     const dvec3 axis = aroundY(i, n), normal = std::cos(angle) * axis + dvec3(0, std::sin(angle), 0);
-    return SurfacePoint{static_cast<double>(radius) * axis + static_cast<double>(tube) * normal, normal};
+    return ShapePoint{static_cast<double>(radius) * axis + static_cast<double>(tube) * normal, normal};
   });
   return finished(std::move(mesh), "torus");
 }
@@ -151,7 +151,7 @@ Mesh makeTorusKnot(uint32_t p, uint32_t q, float radius, float tube, Density den
     // The normal of the torus the curve lies on is across the curve, and closes with it.
     const dvec3 across = std::cos(b) * radial + std::sin(b) * up;
     const dvec3 normal = std::cos(angle) * across + std::sin(angle) * glm::cross(across, tangent);
-    return SurfacePoint{curve + static_cast<double>(tube) * normal, normal};
+    return ShapePoint{curve + static_cast<double>(tube) * normal, normal};
   });
   return finished(std::move(mesh), "torus_knot");
 }
@@ -172,7 +172,7 @@ Mesh makeBox(vec3 size, Density density) {
     for (const double sign : {1.0, -1.0}) {
       const int u = sign > 0 ? (axis + 1) % 3 : (axis + 2) % 3, v = 3 - axis - u;
       addGrid(mesh, c[u], c[v], [&](uint32_t i, uint32_t j) {
-        SurfacePoint point{dvec3(0), dvec3(0)};
+        ShapePoint point{dvec3(0), dvec3(0)};
         point.normal[axis] = sign;
         point.position[axis] = sign * half[axis];
         point.position[u] = between(-half[u], half[u], i, c[u]);
@@ -206,7 +206,7 @@ Mesh makePrism(float radius, float length, Density density) {
     const std::size_t next = (k + 1) % 3;
     const dvec3 normal = glm::normalize(corners[k] + corners[next]);
     addGrid(mesh, n, along, [&](uint32_t i, uint32_t j) {
-      return SurfacePoint{edge(k, next, i) + dvec3(0, 0, between(-end, end, j, along)), normal};
+      return ShapePoint{edge(k, next, i) + dvec3(0, 0, between(-end, end, j, along)), normal};
     });
   }
   for (const double sign : {1.0, -1.0}) {
@@ -217,7 +217,7 @@ Mesh makePrism(float radius, float length, Density density) {
       if (w.z == 0) p = edge(0, 1, w.y);
       if (w.x == 0) p = edge(1, 2, w.z);
       if (w.y == 0) p = edge(2, 0, w.x);
-      return SurfacePoint{p + dvec3(0, 0, sign * end), {0, 0, sign}};
+      return ShapePoint{p + dvec3(0, 0, sign * end), {0, 0, sign}};
     });
     if (sign > 0) continue;
     const std::size_t firstOfCap = mesh.triangles.size() - std::size_t{n} * n;
@@ -257,7 +257,7 @@ Mesh makeRing(float radius, float height, float thickness, Density density) {
   for (const double sign : {1.0, -1.0}) {
     addGrid(mesh, n, across, [&](uint32_t i, uint32_t j) {
       const double r = sign > 0 ? between(outer, inner, j, across) : between(inner, outer, j, across);
-      return SurfacePoint{r * aroundY(i, n) + dvec3(0, sign * (height / 2.0), 0), {0, sign, 0}};
+      return ShapePoint{r * aroundY(i, n) + dvec3(0, sign * (height / 2.0), 0), {0, sign, 0}};
     });
   }
   return finished(std::move(mesh), "ring");
@@ -275,7 +275,7 @@ Mesh makePlane(vec2 size, Density density) {
   }));
   Mesh mesh;
   addGrid(mesh, c.x, c.y, [&](uint32_t i, uint32_t j) {
-    return SurfacePoint{
+    return ShapePoint{
         {between(-size.x / 2, size.x / 2, i, c.x), 0, between(size.y / 2, -size.y / 2, j, c.y)}, {0, 1, 0}};
   });
   return finished(std::move(mesh), "plane");

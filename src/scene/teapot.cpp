@@ -69,7 +69,7 @@ Bernstein bernstein(uint32_t i, uint32_t n) {
 }
 
 // Point and normal of a patch at row i and column j of n. All patches are laid so that d/dcolumn x d/drow looks out.
-SurfacePoint evaluate(const Patch& patch, uint32_t i, uint32_t j, uint32_t n) {
+ShapePoint evaluate(const Patch& patch, uint32_t i, uint32_t j, uint32_t n) {
   const Bernstein row = bernstein(i, n), column = bernstein(j, n);
   dvec3 position(0), alongRow(0), alongColumn(0);
   for (std::size_t r = 0; r < 4; ++r) {
@@ -89,7 +89,7 @@ SurfacePoint evaluate(const Patch& patch, uint32_t i, uint32_t j, uint32_t n) {
 }
 
 // From the data's axes to ours: z up becomes y up.
-SurfacePoint upright(const SurfacePoint& p) {
+ShapePoint upright(const ShapePoint& p) {
   return {{p.position.x, p.position.z, -p.position.y}, {p.normal.x, p.normal.z, -p.normal.y}};
 }
 
@@ -102,7 +102,7 @@ void addQuarters(Mesh& mesh, uint32_t n) {
   for (const Patch& patch : kQuarters) {
     for (uint32_t turns = 0; turns < 4; ++turns) {
       addGrid(mesh, n, n, [&](uint32_t j, uint32_t i) {
-        const SurfacePoint p = evaluate(patch, i, j, n);
+        const ShapePoint p = evaluate(patch, i, j, n);
         return upright({quarterTurns(p.position, turns), quarterTurns(p.normal, turns)});
       });
     }
@@ -127,7 +127,7 @@ void addTube(Mesh& mesh, const Tube& tube, uint32_t n) {
       return upright(evaluate(patch, i, j, n));
     });
     addGrid(mesh, n, n, [&](uint32_t i, uint32_t j) {
-      const SurfacePoint p = evaluate(patch, i, j, n);
+      const ShapePoint p = evaluate(patch, i, j, n);
       return upright({mirrored(p.position), mirrored(p.normal)});
     });
   }
