@@ -101,6 +101,9 @@ TEST_F(TableFile, OfSomethingElseIsRejectedSayingWhat) {
   Mesh moved = ball;
   moved.positions[5].x += 1e-3f;
   EXPECT_NE(rejection(file, tableKey(moved, vec3(1.5f), kFew)).find("another mesh"), std::string::npos);
+  Mesh curved = ball;
+  curved.isCurved = true;
+  EXPECT_NE(rejection(file, tableKey(curved, vec3(1.5f), kFew)).find("another mesh"), std::string::npos);
   Mesh bent = ball;
   bent.normals[5] = normalize(bent.normals[5] + vec3(0.01f, 0, 0));
   EXPECT_NE(rejection(file, tableKey(bent, vec3(1.5f), kFew)).find("another mesh"), std::string::npos);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "optics/curved_triangle.h"
 
 namespace nephroid {
 namespace {
@@ -42,6 +43,20 @@ struct Filling {
   float* paths(uint32_t row) const { return pathLengths.get() + std::size_t{row} * directions; }
 };
 
+// m: how far a curved surface rises above its triangles, judged at their middles and those of their sides.
+float largestRise(const Mesh& mesh) {
+  float largest = 0;
+  if (!mesh.isCurved) return largest;
+  for (const uvec3& t : mesh.triangles) {
+    const mat3 corners(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
+    const mat3 normals(mesh.normals[t.x], mesh.normals[t.y], mesh.normals[t.z]);
+    for (const vec3& weights :
+         {vec3(1 / 3.0f), vec3(0.5f, 0.5f, 0), vec3(0, 0.5f, 0.5f), vec3(0.5f, 0, 0.5f)})
+      largest = std::max(largest, length(curvedOffset(corners * weights, weights, corners, normals)));
+  }
+  return largest;
+}
+
 TableLayout layoutAround(const TableKey& key, const Mesh& mesh) {
   TableLayout layout = layoutOf(key);
   layout.boxMinimum = mesh.positions.empty() ? vec3(0) : mesh.positions[0];
@@ -50,7 +65,9 @@ TableLayout layoutAround(const TableKey& key, const Mesh& mesh) {
     layout.boxMinimum = glm::min(layout.boxMinimum, position);
     maximum = glm::max(maximum, position);
   }
-  layout.boxExtent = maximum - layout.boxMinimum;
+  const float rise = largestRise(mesh);
+  layout.boxMinimum -= rise;
+  layout.boxExtent = maximum + rise - layout.boxMinimum;
   return layout;
 }
 

@@ -17,6 +17,7 @@ constexpr uint64_t kMostWords = uint64_t{1} << 32;  // an entry is addressed by 
 uint64_t geometryHash(const Mesh& mesh) {
   Hasher hasher;
   hasher.add(mesh.positions.size());
+  hasher.add(uint32_t{mesh.isCurved});
   hasher.add(std::as_bytes(std::span(mesh.positions)));
   hasher.add(std::as_bytes(std::span(mesh.normals)));
   hasher.add(std::as_bytes(std::span(mesh.triangles)));
