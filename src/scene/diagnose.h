@@ -1,0 +1,38 @@
+// What a scene holds, and which of its casters will make no caustics, or poor ones, and why.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace nephroid {
+
+struct CasterReport {
+  uint32_t object = 0;
+  uint32_t boundaryEdges = 0;     // edges of its mesh with one face
+  uint32_t nonManifoldEdges = 0;  // with more than two
+  std::vector<std::string>
+      obstacles;  // why it will make no caustics, or poor ones; empty when nothing is in the way
+  std::vector<std::string> notes;  // what is worth knowing and does no harm
+};
+
+struct SceneReport {
+  std::size_t objects = 0, casters = 0, receivers = 0;
+  std::size_t triangles = 0, vertices = 0;  // of all objects, each counted as often as it stands there
+  std::size_t droppedTriangles = 0;         // without an area, left out of the meshes
+  std::size_t materials = 0, textures = 0, lights = 0, sensors = 0;
+  std::vector<CasterReport> casterReports;  // in the order of the objects
+  std::vector<std::string> warnings;        // about the whole scene
+};
+
+SceneReport diagnose(const Scene& scene);
+
+// The report as lines of text for a reader.
+std::string describe(const Scene& scene, const SceneReport& report);
+
+// Whether light from it can come to a ball, as far as its kind, strength and cone say; what stands between
+// does not count.
+bool reaches(const Light& light, vec3 centre, float radius);
+
+}  // namespace nephroid
