@@ -18,8 +18,8 @@ using glm::sin;
 
 // Rings are equally spaced in angle up to this one; light beyond it uses its rays, with its own Fresnel
 // transmittance on entry. At 90 degrees nothing enters; much nearer to it, rays through a ball's facets are
-// lost where those through the ball are not. Flux and exits of a ball and of scanned animals were most exact
-// with 86 to 88 degrees, and less so with rings equally spaced in sine.
+// lost where those through the ball are not. Of 84.4, 86, 87, 88, 89 and 89.5 degrees, those up to 87 lost no
+// rays of a ball for that; the total flux differed by 0.2 % at most.
 SHARED_CONSTANT float kOutermostRing = 1.5184364f;  // radians: 87 degrees from the normal
 SHARED_CONSTANT float kTwoPi = 6.2831853f;
 
