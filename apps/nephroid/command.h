@@ -2,12 +2,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <string>
 #include <vector>
 
+#include "core/image_io.h"
 #include "core/stats.h"
 #include "techniques/settings.h"
 
@@ -20,6 +22,9 @@ struct Command {
 };
 
 // Each declares its options on a subcommand of `program`.
+Command addRender(CLI::App& program);
+Command addMeasure(CLI::App& program);
+Command addBake(CLI::App& program);
 Command addInfo(CLI::App& program);
 
 // What most commands share.
@@ -27,7 +32,6 @@ struct CommonOptions {
   std::filesystem::path scene;
   std::filesystem::path output;
   std::filesystem::path stats;  // empty: none
-  std::filesystem::path baked;  // empty: found in the cache, or made
   std::string device;           // empty: the best there is
   double time = 0;              // s
   uint32_t repeat = 1;
@@ -41,12 +45,33 @@ void addDevice(CLI::App& command, std::string& device);
 void addQuiet(CLI::App& command, bool& isQuiet);
 void addMeasuring(CLI::App& command, CommonOptions& options);
 // `isSensorKnown`: a plane may be put where the sensor is.
+void addField(CLI::App& command, const SettingField& field, TechniqueSettings& settings, bool isSensorKnown);
 void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown);
 
 // Throws, before any work is done, where `file` cannot be written, ends in none of `extensions` (none given:
 // any will do) or is the scene itself.
 void checkOutput(const std::filesystem::path& file, const std::filesystem::path& scene,
                  std::initializer_list<const char*> extensions = {});
+
+// The names of all techniques.
+std::vector<std::string> techniqueList();
+
+// "a, b, c".
+std::string joined(const std::vector<std::string>& names);
+
+// What an EXR says of how it was made. Neither a time nor a place, so that the same command writes the same
+// bytes.
+std::vector<ImageAttribute> imageAttributes(const TechniqueSettings& settings, const std::string& unit);
+
+class Stopwatch {
+ public:
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 void writeStats(const std::filesystem::path& file, const Stats& stats);
 

@@ -1,19 +1,15 @@
 #include <algorithm>
+#include <cmath>
 
 #include "command.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "techniques/registry.h"
 
 namespace nephroid {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 // For CLI11's check(): empty where the value is one of `names`.
 auto oneOf(std::vector<std::string> names) {
@@ -42,25 +38,27 @@ void addChoice(CLI::App& command, const std::string& flag, Choice& choice,
       ->group("Technique");
 }
 
-void addField(CLI::App& command, const SettingField& field, uint32_t& value, bool isSensorKnown) {
-  CLI::Option* option = command.add_option(std::string("--") + field.flag, value, field.help);
-  const std::string range = std::to_string(field.minimum) + " to " + std::to_string(field.maximum);
-  const bool hasZeroWord = isSensorKnown && field.zeroWord;
-  const std::string words = hasZeroWord ? range + ", or " + field.zeroWord : range;
-  const auto check = [=](std::string& text) -> std::string {
-    if (hasZeroWord && text == field.zeroWord) {
-      text = "0";
-      return {};
-    }
-    uint32_t number = 0;
-    const bool isNumber = CLI::detail::lexical_cast(text, number);
-    if (isNumber && number >= field.minimum && number <= field.maximum) return {};
-    return "'" + text + "' is not a whole number from " + words;
-  };
-  option->transform(CLI::Validator(check, "(" + words + ")"))->capture_default_str()->group("Technique");
+}  // namespace
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
-}  // namespace
+std::vector<std::string> techniqueList() {
+  std::vector<std::string> names;
+  for (const TechniqueEntry& entry : techniques()) names.emplace_back(entry.name);
+  return names;
+}
+
+std::vector<ImageAttribute> imageAttributes(const TechniqueSettings& settings, const std::string& unit) {
+  return {{"software", std::string("nephroid ") + NEPHROID_VERSION},
+          {"technique", settings.technique},
+          {"source", std::string(nameOf(settings.source))},
+          {"paths", std::string(nameOf(settings.paths))},
+          {"unit", unit}};
+}
 
 void addScene(CLI::App& command, fs::path& scene) {
   command.add_option("SCENE", scene, "The scene: a .toml, .gltf or .glb file")->required()->type_name("");
@@ -72,6 +70,11 @@ void addOutput(CLI::App& command, fs::path& output, const std::string& help) {
 
 void addTime(CLI::App& command, double& time) {
   command.add_option("--time", time, "The time that what moves by itself is shown at, in seconds")
+      ->check([](const std::string& text) {
+        double seconds = 0;
+        const bool isNumber = CLI::detail::lexical_cast(text, seconds) && std::isfinite(seconds);
+        return isNumber ? std::string() : "'" + text + "' is not a number of seconds";
+      })
       ->type_name("SECONDS")
       ->capture_default_str();
 }
@@ -105,10 +108,32 @@ void addMeasuring(CLI::App& command, CommonOptions& options) {
       ->type_name("FILE.json");
 }
 
+void addField(CLI::App& command, const SettingField& field, TechniqueSettings& settings, bool isSensorKnown) {
+  CLI::Option* option =
+      command.add_option(std::string("--") + field.flag, settings.*field.member, field.help);
+  const std::string range = std::to_string(field.minimum) + " to " + std::to_string(field.maximum);
+  const bool hasZeroWord = isSensorKnown && field.zeroWord;
+  const std::string words = hasZeroWord ? range + ", or " + field.zeroWord : range;
+  const auto check = [=](std::string& text) -> std::string {
+    if (hasZeroWord && text == field.zeroWord) {
+      text = "0";
+      return {};
+    }
+    uint32_t number = 0;
+    const bool isNumber = CLI::detail::lexical_cast(text, number);
+    if (isNumber && number >= field.minimum && number <= field.maximum) return {};
+    return "'" + text + "' is not a whole number from " + words;
+  };
+  option->transform(CLI::Validator(check, "(" + words + ")"))
+      ->type_name("N")
+      ->capture_default_str()
+      ->group("Technique");
+}
+
 void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown) {
-  const std::vector<std::string> techniques = {"illumination-textures", "none"};
-  command.add_option("--technique", settings.technique, "How caustics are made: " + joined(techniques))
-      ->check(oneOf(techniques))
+  const std::vector<std::string> names = techniqueList();
+  command.add_option("--technique", settings.technique, "How caustics are made: " + joined(names))
+      ->check(oneOf(names))
       ->type_name("NAME")
       ->capture_default_str()
       ->group("Technique");
@@ -116,8 +141,12 @@ void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorK
             "Where the rays that leave a caster come from: a light transport table, or traced now");
   addChoice(command, "--paths", settings.paths, kPathsNames,
             "Light followed by refraction alone, or by reflection outside and inside as well");
-  for (const SettingField& field : settingFields())
-    addField(command, field, settings.*field.member, isSensorKnown);
+  command
+      .add_option("--baked", settings.baked,
+                  "The light transport tables that `nephroid bake` wrote for this scene")
+      ->type_name("FILE")
+      ->group("Technique");
+  for (const SettingField& field : settingFields()) addField(command, field, settings, isSensorKnown);
 }
 
 void checkOutput(const fs::path& file, const fs::path& scene, std::initializer_list<const char*> extensions) {

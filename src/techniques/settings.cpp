@@ -10,7 +10,7 @@ std::span<const SettingField> settingFields() {
       {"texture-size", "Texels along each side of a virtual plane", &Settings::textureSize, 16, 8192,
        nullptr},
       {"directions", "Light directions held for each vertex of a light transport table",
-       &Settings::directions, 5, 65535, nullptr},
+       &Settings::directions, 9, 65535, nullptr},
       {"refine-depth", "How many times a beam may be divided where the light within it goes different ways",
        &Settings::refineDepth, 0, 8, nullptr},
   };

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -21,10 +22,11 @@ struct TechniqueSettings {
   std::string technique = "illumination-textures";  // a name of the registry
   Source source = Source::table;
   Paths paths = Paths::transmission;
-  uint32_t planes = 4;         // virtual planes; 0: a single one, in the sensor's own plane
-  uint32_t textureSize = 512;  // texels along a side of a virtual plane
-  uint32_t directions = 129;   // per vertex of a light transport table
-  uint32_t refineDepth = 3;    // times a beam may be halved along its edges
+  uint32_t planes = 4;          // virtual planes; 0: a single one, in the sensor's own plane
+  uint32_t textureSize = 512;   // texels along a side of a virtual plane
+  uint32_t directions = 129;    // per vertex of a light transport table
+  std::filesystem::path baked;  // the light transport tables to use; empty: found in the cache, or made
+  uint32_t refineDepth = 3;     // times a beam may be halved along its edges
 };
 
 inline const char* nameOf(Source source) {

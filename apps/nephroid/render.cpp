@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <iomanip>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "command.h"
+#include "core/interrupt.h"
+#include "render/frame.h"
+#include "scene/load.h"
+#include "techniques/registry.h"
+
+namespace nephroid {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FrameRange {
+  uint32_t first = 0;
+  uint32_t last = 0;
+};
+
+struct RenderOptions : CommonOptions {
+  TechniqueSettings technique;
+  RenderSettings render;
+  std::optional<FrameRange> frames;
+  double framesPerSecond = 60;
+};
+
+// A frame to be drawn: when, and where to.
+struct FrameJob {
+  double time = 0;  // s
+  fs::path output;
+};
+
+// out.png becomes out.0007.png.
+fs::path numbered(const fs::path& output, uint32_t frame) {
+  std::ostringstream number;
+  number << '.' << std::setw(4) << std::setfill('0') << frame;
+  fs::path named = output;
+  return named.replace_extension(number.str() + output.extension().string());
+}
+
+std::vector<FrameJob> jobsOf(const RenderOptions& options) {
+  if (!options.frames) return {{options.time, options.output}};
+  std::vector<FrameJob> jobs;
+  for (uint32_t frame = options.frames->first; frame <= options.frames->last; ++frame)
+    jobs.push_back({options.time + frame / options.framesPerSecond, numbered(options.output, frame)});
+  return jobs;
+}
+
+void writePicture(Renderer& renderer, const TechniqueSettings& settings, const fs::path& output) {
+  if (output.extension() == ".png")
+    writePng(output, renderer.picture());
+  else
+    writeExr(output, renderer.layers(), imageAttributes(settings, "nit"));
+}
+
+// A frame and what it took; with it the times of all its repetitions.
+std::vector<std::pair<double, std::vector<PassTime>>> drawFrame(const RenderOptions& options,
+                                                                const FrameJob& job, gpu::Device& device,
+                                                                Progress& progress, Stats& stats) {
+  const Stopwatch preparing;
+  const Scene scene = loadScene(options.scene, job.time);
+  const auto technique = makeTechnique({device, scene, options.technique, progress, stats});
+  Renderer renderer(device, scene, options.render, *technique);
+  stats.prepareMilliseconds += preparing.milliseconds();
+
+  std::vector<std::pair<double, std::vector<PassTime>>> times;
+  for (uint32_t i = 0; i < options.repeat; ++i) {
+    const Stopwatch frame;
+    std::vector<PassTime> passes = renderer.render(scene);
+    times.emplace_back(frame.milliseconds(), std::move(passes));
+  }
+  stats.memoryBytes = std::max(stats.memoryBytes, device.memoryBytes());
+  writePicture(renderer, options.technique, job.output);
+  return times;
+}
+
+void runRender(const RenderOptions& options) {
+  const std::vector<FrameJob> jobs = jobsOf(options);
+  checkOutput(jobs.front().output, options.scene, {".png", ".exr"});
+  if (!options.stats.empty()) checkOutput(options.stats, options.scene);
+
+  Progress progress(progressDisplay(options.isQuiet));
+  loadScene(options.scene, options.time);  // what is wrong with it is told before a device is looked for
+  gpu::Device device({.device = options.device});
+  Stats stats;
+  stats.device = device.info().name;
+  stats.technique = options.technique.technique;
+  stats.source = nameOf(options.technique.source);
+
+  std::vector<std::pair<double, std::vector<PassTime>>> times;
+  for (const FrameJob& job : jobs) {
+    auto part = drawFrame(options, job, device, progress, stats);
+    std::move(part.begin(), part.end(), std::back_inserter(times));
+    throwIfInterrupted();
+  }
+  std::sort(times.begin(), times.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  stats.frameMilliseconds = times[times.size() / 2].first;
+  stats.passes = times[times.size() / 2].second;
+  writeStats(options.stats, stats);
+}
+
+// "A<separator>B", both whole numbers; empty where it is not that.
+std::optional<uvec2> pairOf(const std::string& text, char separator) {
+  std::istringstream stream(text);
+  uvec2 pair;
+  char between = 0;
+  if (text.find('-') != std::string::npos || !(stream >> pair.x >> between >> pair.y) ||
+      between != separator || stream.peek() != EOF)
+    return std::nullopt;
+  return pair;
+}
+
+void addSize(CLI::App& command, uvec2& size) {
+  constexpr uint32_t kMaximum = 16384;
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&size](const std::string& text) {
+            const std::optional<uvec2> pair = pairOf(text, 'x');
+            if (!pair || std::min(pair->x, pair->y) < 1 || std::max(pair->x, pair->y) > kMaximum)
+              throw CLI::ValidationError("--size", "'" + text +
+                                                       "' is not WIDTHxHEIGHT, such as 640x480, each 1 to " +
+                                                       std::to_string(kMaximum));
+            size = *pair;
+          },
+          "The size of the picture in pixels")
+      ->type_name("WxH")
+      ->default_str(std::to_string(size.x) + "x" + std::to_string(size.y));
+}
+
+void addFrames(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--frames",
+          [&options](const std::string& text) {
+            const std::optional<uvec2> pair = pairOf(text, ':');
+            if (!pair || pair->y < pair->x || pair->y - pair->x >= 1000000)
+              throw CLI::ValidationError("--frames", "'" + text + "' is not FIRST:LAST, such as 0:59");
+            options.frames = FrameRange{pair->x, pair->y};
+          },
+          "A picture for each frame from A to B, at --time + frame / --fps, as OUT.0000.png and so on")
+      ->type_name("A:B");
+  command.add_option("--fps", options.framesPerSecond, "Frames a second")
+      ->check(CLI::Range(0.001, 100000.0))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+Command addRender(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("render", "A picture of a scene, as PNG or as EXR with its layers");
+  const auto options = std::make_shared<RenderOptions>();
+  addScene(*command, options->scene);
+  addOutput(
+      *command, options->output,
+      "OUT.png: exposed and tone-mapped. OUT.exr: 32-bit float luminance in nit: R,G,B the total; "
+      "direct.R,G,B and caustics.R,G,B its parts by light that met no caster, and by light that met one; "
+      "depth.Z in metres; normal.X,Y,Z");
+  addSize(*command, options->render.size);
+  addTime(*command, options->time);
+  addFrames(*command, *options);
+  addTechnique(*command, options->technique, false);
+  addDevice(*command, options->device);
+  addMeasuring(*command, *options);
+  addQuiet(*command, options->isQuiet);
+  return {command, [options] { runRender(*options); }};
+}
+
+}  // namespace nephroid

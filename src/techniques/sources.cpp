@@ -1,0 +1,68 @@
+#include "techniques/sources.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/error.h"
+#include "transport/table/table_file.h"
+#include "transport/table/table_source.h"
+
+namespace nephroid {
+namespace {
+
+// Which tables a scene needs, and which of them each object uses.
+struct TablePlan {
+  std::vector<TableKey> keys;
+  std::vector<uint32_t> owners;                      // an object that each was planned for
+  std::vector<std::optional<std::size_t>> ofObject;  // none where an object is traced
+};
+
+TablePlan planTables(const Scene& scene, const TableSettings& settings) {
+  TablePlan plan;
+  plan.ofObject.resize(scene.objects.size());
+  for (uint32_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (!hasTable(scene, object)) continue;
+    const TableKey key = tableKey(scene.meshOf(object), scene.materialOf(object).ior, settings);
+    const auto found = std::find(plan.keys.begin(), plan.keys.end(), key);
+    plan.ofObject[i] = static_cast<std::size_t>(found - plan.keys.begin());
+    if (found != plan.keys.end()) continue;
+    plan.keys.push_back(key);
+    plan.owners.push_back(i);
+  }
+  return plan;
+}
+
+std::vector<TransportTable> makePlanned(const Scene& scene, const TablePlan& plan,
+                                        const TableSettings& settings, Progress& progress) {
+  std::vector<TransportTable> tables;
+  for (const uint32_t owner : plan.owners) {
+    const Object& object = scene.objects[owner];
+    tables.push_back(
+        loadOrBuildTable(scene.meshOf(object), scene.materialOf(object).ior, settings, progress));
+  }
+  return tables;
+}
+
+}  // namespace
+
+std::vector<TransportTable> makeTables(const Scene& scene, const TechniqueSettings& settings,
+                                       Progress& progress) {
+  const TableSettings tableSettings{settings.directions};
+  return makePlanned(scene, planTables(scene, tableSettings), tableSettings, progress);
+}
+
+std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const TechniqueSettings& settings,
+                                                 const TransportSource& traced, Progress& progress) {
+  const TableSettings tableSettings{settings.directions};
+  const TablePlan plan = planTables(scene, tableSettings);
+  const std::vector<TransportTable> tables = settings.baked.empty()
+                                                 ? makePlanned(scene, plan, tableSettings, progress)
+                                                 : openTables(settings.baked, plan.keys);
+  std::vector<std::optional<TransportTable>> ofObject(scene.objects.size());
+  for (std::size_t i = 0; i < ofObject.size(); ++i)
+    if (plan.ofObject[i]) ofObject[i] = tables[*plan.ofObject[i]];
+  return std::make_unique<TableSource>(scene, std::move(ofObject), traced);
+}
+
+}  // namespace nephroid
