@@ -192,6 +192,7 @@ struct ShadowCase {
   const char* name;
   Light light;
   MaterialType type;
+  bool isInRoom = false;  // with a room around that can shade too: six maps
 };
 
 Light lightOf(LightType type, vec3 position, vec3 direction) {
@@ -217,6 +218,10 @@ TEST_P(Shadow, LandsWhereGeometrySays) {
   scene.meshes.push_back(box(halfSize));
   scene.objects.push_back({"block", 1, 1, {center, quat(1, 0, 0, 0), 1}, std::nullopt});
   scene.lights.push_back(GetParam().light);
+  if (GetParam().isInRoom) {
+    scene.meshes.push_back(box(vec3(8)));
+    scene.objects.push_back({"room", 2, 0, {vec3(0.1f), quat(1, 0, 0, 0), 1}, std::nullopt});
+  }
   const Image image = layersOf(scene);
   const Light& light = scene.lights[0];
   const vec3 lightPosition = light.type == LightType::directional ? vec3(0) : light.position;
@@ -254,7 +259,11 @@ INSTANTIATE_TEST_SUITE_P(
         ShadowCase{"Sun", lightOf(LightType::directional, {0, 0, 0}, {0.3f, -1, 0.2f}),
                    MaterialType::diffuse},
         ShadowCase{"PointOnGlass", lightOf(LightType::point, {1, 3, 0.5f}, {0, -1, 0}),
-                   MaterialType::dielectric}),
+                   MaterialType::dielectric},
+        ShadowCase{"PointInARoom", lightOf(LightType::point, {1, 3, 0.5f}, {0, -1, 0}), MaterialType::diffuse,
+                   true},
+        ShadowCase{"LowPointInARoom", lightOf(LightType::point, {-1.5f, 1.5f, -0.5f}, {0, -1, 0}),
+                   MaterialType::diffuse, true}),
     [](const auto& shadow) { return shadow.param.name; });
 
 // With walls all around that are not flat the light needs six maps; nothing may shade itself.

@@ -155,27 +155,18 @@ void CommandList::render(const RenderTargets& targets, const std::function<void(
   }
   const Image& any = targets.colors.empty() ? *targets.depth->image : *targets.colors.front().image;
   auto info = structure<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
-  info.renderArea.extent = {any.width(), any.height()};
+  const Region region = targets.region.value_or(Region{{0, 0}, {any.width(), any.height()}});
+  info.renderArea = {{region.corner.x, region.corner.y}, {region.size.x, region.size.y}};
   info.layerCount = 1;
   info.colorAttachmentCount = static_cast<uint32_t>(colors.size());
   info.pColorAttachments = colors.data();
   info.pDepthAttachment = targets.depth ? &depth : nullptr;
   vkCmdBeginRendering(commandBuffer_, &info);
-  setViewport({0, 0}, {any.width(), any.height()});
+  const VkViewport viewport{0, 0, static_cast<float>(any.width()), static_cast<float>(any.height()), 0, 1};
+  vkCmdSetViewport(commandBuffer_, 0, 1, &viewport);
+  vkCmdSetScissor(commandBuffer_, 0, 1, &info.renderArea);
   draws();
   vkCmdEndRendering(commandBuffer_);
-}
-
-void CommandList::setViewport(ivec2 corner, uvec2 size) {
-  const VkViewport viewport{static_cast<float>(corner.x),
-                            static_cast<float>(corner.y),
-                            static_cast<float>(size.x),
-                            static_cast<float>(size.y),
-                            0,
-                            1};
-  const VkRect2D scissor{{corner.x, corner.y}, {size.x, size.y}};
-  vkCmdSetViewport(commandBuffer_, 0, 1, &viewport);
-  vkCmdSetScissor(commandBuffer_, 0, 1, &scissor);
 }
 
 void CommandList::drawBytes(const Program& program, uint32_t vertexCount, uint32_t instanceCount,

@@ -41,9 +41,16 @@ struct DepthAttachment {
   std::optional<float> clear;
 };
 
+// A rectangle of texels.
+struct Region {
+  ivec2 corner{0};
+  uvec2 size{0};
+};
+
 struct RenderTargets {
   std::vector<ColorAttachment> colors;
   std::optional<DepthAttachment> depth;
+  std::optional<Region> region{};  // of the targets that is cleared and drawn to; all of them without it
 };
 
 // Indices (uint32) `first` .. `first + count` of a buffer, each with `vertexOffset` added to it.
@@ -71,9 +78,9 @@ class CommandList {
     dispatchBytes(program, threads, bytesOf(constants), bindings);
   }
 
-  // Draws go between the beginning and the end of this; the viewport is all of the targets.
+  // Draws go between the beginning and the end of this; the viewport is all of the targets, whatever the
+  // region.
   void render(const RenderTargets& targets, const std::function<void()>& draws);
-  void setViewport(ivec2 corner, uvec2 size);  // in texels; until the next render or setViewport
 
   template <class Constants>
   void draw(const Program& program, uint32_t vertexCount, uint32_t instanceCount, const Constants& constants,

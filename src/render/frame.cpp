@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "gpu/transfer.h"
+#include "render/frame_data.h"
 
 namespace nephroid {
 namespace {
@@ -17,19 +18,39 @@ View viewOf(const Camera& camera, uvec2 size) {
   view.forward = normalize(camera.target - camera.position);
   const float tangent = std::tan(0.5f * glm::radians(camera.verticalFov));
   const vec3 up = std::abs(dot(view.forward, normalize(camera.up))) < 0.9999f ? camera.up : vec3(0, 0, -1);
-  const vec3 right = normalize(cross(view.forward, up));
   const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
-  view.right = tangent * aspect * right;
-  view.up = tangent * cross(right, view.forward);
-
-  const float nearest = 1e-4f * distance(camera.target, camera.position);
+  view.nearest = 1e-4f * distance(camera.target, camera.position);
   mat4 projection(0);
   projection[0][0] = 1 / (tangent * aspect);
   projection[1][1] = -1 / tangent;
   projection[2][3] = -1;
-  projection[3][2] = nearest;
+  projection[3][2] = view.nearest;
   view.worldToClip = projection * glm::lookAtRH(camera.position, camera.target, up);
   return view;
+}
+
+// The pixels that the boxes of casters may cover.
+gpu::Region casterRegion(const Scene& scene, const std::vector<MeshExtent>& extents, const View& view,
+                         uvec2 size) {
+  vec2 low(std::numeric_limits<float>::infinity());
+  vec2 high = -low;
+  for (const Object& object : scene.objects) {
+    if (!scene.isCaster(object)) continue;
+    const MeshExtent& extent = extents[object.mesh];
+    for (int i = 0; i < 8; ++i) {
+      const vec3 corner((i & 1 ? extent.high : extent.low).x, (i & 2 ? extent.high : extent.low).y,
+                        (i & 4 ? extent.high : extent.low).z);
+      const vec4 clip = view.worldToClip * vec4(object.placement.point(corner), 1);
+      if (clip.w < view.nearest) return {{0, 0}, size};
+      const vec2 pixel = (0.5f * vec2(clip) / clip.w + 0.5f) * vec2(size);
+      low = glm::min(low, pixel);
+      high = glm::max(high, pixel);
+    }
+  }
+  const vec2 first = glm::clamp(glm::floor(low) - 1.0f, vec2(0), vec2(size));
+  const vec2 last = glm::clamp(glm::ceil(high) + 1.0f, vec2(0), vec2(size));
+  if (!(first.x < last.x && first.y < last.y)) return {};
+  return {ivec2(first), uvec2(last - first)};
 }
 
 // Runs `work` and notes its time under `name`.
@@ -41,13 +62,43 @@ void onHost(std::vector<PassTime>& passes, const char* name, const Work& work) {
       {name, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()});
 }
 
-// Grows `buffer` to hold `values` and writes them.
-template <class T>
-void writeList(gpu::Device& device, gpu::Buffer& buffer, const char* name, const std::vector<T>& values) {
-  const std::size_t bytes = values.size() * sizeof(T);
-  if (!buffer || buffer.size() < bytes)
-    buffer = gpu::createBuffer(device, name, bytes, gpu::MemoryKind::upload);
-  buffer.write(values);
+// The affine map of a placement.
+mat4 toWorld(const Placement& placement) {
+  mat4 map = placement.scale * mat4(glm::mat3_cast(placement.rotation));
+  map[3] = vec4(placement.translation, 1);
+  return map;
+}
+
+vec3 surfaceColor(const Material& material) {
+  if (material.type != MaterialType::dielectric) return material.color;
+  return -glm::log(glm::max(material.attenuationColor, vec3(1e-6f))) * material.inverseAttenuationDistance();
+}
+
+bool hasEmission(const Scene& scene) {
+  return std::ranges::any_of(scene.materials,
+                             [](const Material& material) { return material.emission != vec3(0); });
+}
+
+DirectConstants directConstants(const ShadowPlan& plan, const ShadowedEmitter& lit) {
+  DirectConstants constants{};
+  constants.emitter = lit.emitter;
+  constants.texelSize = lit.texelSize;
+  constants.texelSizePerDepth = lit.texelSizePerDepth;
+  constants.firstMap = lit.firstMap;
+  constants.mapCount = lit.mapCount;
+  constants.isFirst = &lit == plan.emitters.data();
+  if (lit.mapCount == 0) return constants;
+  // In a perspective the third row is depthScale times the fourth, and depthOffset.
+  const mat4 rows = glm::transpose(plan.maps[lit.firstMap].worldToMap);
+  constants.mapX = rows[0];
+  constants.mapY = rows[1];
+  constants.mapDepth = rows[2];
+  if (lit.texelSizePerDepth > 0) {
+    constants.mapDepth = rows[3];
+    constants.depthScale = dot(vec3(rows[2]), vec3(rows[3])) / dot(vec3(rows[3]), vec3(rows[3]));
+    constants.depthOffset = rows[2].w - constants.depthScale * rows[3].w;
+  }
+  return constants;
 }
 
 }  // namespace
@@ -58,9 +109,9 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const RenderSettings
       technique_(technique),
       settings_(settings),
       gpuScene_(device, scene),
-      programs_(createFramePrograms(device)),
+      programs_(createFramePrograms(device, hasEmission(scene))),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
-      shadowSampler_(gpu::createSampler(device, {.compare = VK_COMPARE_OP_LESS_OR_EQUAL})) {
+      shadowSampler_(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {
   for (const Mesh& mesh : scene.meshes) extents_.push_back(extentOf(mesh));
 }
 
@@ -69,33 +120,31 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
   view_ = viewOf(scene.camera, settings_.size);
   environment_ = scene.environment;
   exposure_ = scene.camera.exposure;
-  onHost(passes, "placement", [&] { gpuScene_.place(scene); });
+  onHost(passes, "placement", [&] {
+    gpuScene_.place(scene);
+    for (const Object& object : scene.objects)
+      if (object.water) extents_[object.mesh] = extentOf(scene.meshOf(object));
+    casterRegion_ = casterRegion(scene, extents_, view_, settings_.size);
+  });
   onHost(passes, "shadow projections", [&] { planShadows(scene); });
   onHost(passes, "beams", [&] { technique_.update(scene, gpuScene_); });
 
   const std::vector<PassTime> onDevice = device_.submitAndWait([&](gpu::CommandList& commands) {
-    commands.pass("shadow maps", [&] { drawShadowMaps(commands); });
+    commands.pass("shadow maps", [&] { drawShadowMaps(commands, scene); });
     technique_.record(commands, gpuScene_);
-    commands.pass("receivers", [&] { drawReceivers(commands); });
-    commands.pass("casters", [&] { drawCasters(commands); });
+    commands.pass("receivers", [&] { drawReceivers(commands, scene); });
+    commands.pass("casters", [&] { drawCasters(commands, scene); });
     commands.pass("direct light", [&] { lightDirectly(commands); });
     technique_.shade(commands, {&images_.receiverPosition, &images_.receiverNormal}, images_.causticsLux);
-    commands.pass("composite", [&] { composite(commands, programs_.composite); });
-    commands.pass("tone mapping", [&] { toneMap(commands); });
+    commands.pass("composite", [&] { composite(commands, false); });
   });
   passes.insert(passes.end(), onDevice.begin(), onDevice.end());
   return passes;
 }
 
 void Renderer::planShadows(const Scene& scene) {
-  for (const Object& object : scene.objects)
-    if (object.water) extents_[object.mesh] = extentOf(scene.meshOf(object));
   shadows_ = planShadowMaps(scene, extents_, settings_.shadowMapSize);
 
-  std::vector<mat4> projections;
-  for (const ShadowMap& map : shadows_.maps) projections.push_back(map.worldToMap);
-  writeList(device_, emitters_, "emitters", shadows_.emitters);
-  writeList(device_, shadowProjections_, "shadow projections", projections);
   const auto layers = std::max<uint32_t>(static_cast<uint32_t>(shadows_.maps.size()), 1);
   if (!shadowMaps_ || shadowMaps_.layerCount() < layers)
     shadowMaps_ = gpu::createImage(device_, "shadow maps",
@@ -105,83 +154,101 @@ void Renderer::planShadows(const Scene& scene) {
                                     .layers = layers});
 }
 
-void Renderer::drawShadowMaps(gpu::CommandList& commands) {
+void Renderer::drawShadowMaps(gpu::CommandList& commands, const Scene& scene) {
   for (uint32_t layer = 0; layer < shadows_.maps.size(); ++layer) {
     const ShadowMap& map = shadows_.maps[layer];
     commands.render({.colors = {}, .depth = gpu::DepthAttachment{&shadowMaps_, layer, 1.0f}}, [&] {
       for (const uint32_t object : map.objects)
         commands.drawIndexed(
             programs_.shadow, gpuScene_.indices(), gpuScene_.draws()[object].range, 1,
-            ShadowConstants{gpuScene_.vertices(), gpuScene_.objects(), map.worldToMap, object});
+            ShadowConstants{gpuScene_.vertices(), map.worldToMap * toWorld(scene.objects[object].placement)});
     });
   }
 }
 
-void Renderer::drawSurfaces(gpu::CommandList& commands, const gpu::Program& program, MaterialType type) {
+void Renderer::drawSurfaces(gpu::CommandList& commands, const Scene& scene, const gpu::Program& program,
+                            MaterialType type) {
   for (const SceneDraw& draw : gpuScene_.draws()) {
     if (draw.type != type) continue;
-    const SurfaceConstants constants{gpuScene_.vertices(), gpuScene_.objects(), gpuScene_.materials(),
-                                     view_.worldToClip,    view_.eye,           draw.object};
-    const auto drawWith = [&](gpu::Bindings bindings) {
-      commands.drawIndexed(program, gpuScene_.indices(), draw.range, 1, constants, bindings);
+    const Object& object = scene.objects[draw.object];
+    const Material& material = scene.materialOf(object);
+    SurfaceConstants constants{};
+    constants.vertices = gpuScene_.vertices();
+    constants.objects = gpuScene_.objects();
+    constants.worldToClip = view_.worldToClip;
+    constants.eye = view_.eye;
+    constants.object = draw.object;
+    constants.color = surfaceColor(material);
+    constants.ior = type == MaterialType::dielectric ? material.ior.y : 0;
+    constants.material = object.material;
+    const auto drawWith = [&](const gpu::Program& chosen, gpu::Bindings bindings) {
+      commands.drawIndexed(chosen, gpuScene_.indices(), draw.range, 1, constants, bindings);
     };
-    if (&program == &programs_.receiver)
-      drawWith({{*draw.colorTexture, gpuScene_.textureSampler()}});
+    if (type == MaterialType::diffuse)
+      drawWith(material.colorTexture == kNone ? program : programs_.texturedReceiver,
+               {{*draw.colorTexture, gpuScene_.textureSampler()}});
     else if (&program == &programs_.viewTransmittance)
-      drawWith({images_.receiverPosition});
+      drawWith(program, {images_.receiverPosition});
     else
-      drawWith({});
+      drawWith(program, {});
   }
 }
 
-void Renderer::drawReceivers(gpu::CommandList& commands) {
+void Renderer::drawReceivers(gpu::CommandList& commands, const Scene& scene) {
   const vec4 nothing(0);
   commands.render({.colors = {{&images_.receiverPosition, 0, nothing},
                               {&images_.receiverNormal, 0, nothing},
                               {&images_.receiverAlbedo, 0, nothing}},
                    .depth = gpu::DepthAttachment{&images_.depth, 0, 0.0f}},
-                  [&] { drawSurfaces(commands, programs_.receiver, MaterialType::diffuse); });
+                  [&] { drawSurfaces(commands, scene, programs_.receiver, MaterialType::diffuse); });
 }
 
 // Mirrors first, then all that glass in front of them and of the receivers takes away, then the nearest
 // glass.
-void Renderer::drawCasters(gpu::CommandList& commands) {
+void Renderer::drawCasters(gpu::CommandList& commands, const Scene& scene) {
+  if (casterRegion_.size.x == 0) return;
   const vec4 nothing(0);
   const gpu::DepthAttachment depth{&images_.depth, 0, std::nullopt};
-  commands.render({.colors = {{&images_.casterPosition, 0, nothing}, {&images_.casterNormal, 0, nothing}},
-                   .depth = depth},
-                  [&] { drawSurfaces(commands, programs_.mirror, MaterialType::mirror); });
-  commands.barrier();
-  commands.render({.colors = {{&images_.opticalDepth, 0, nothing}}, .depth = depth},
-                  [&] { drawSurfaces(commands, programs_.viewTransmittance, MaterialType::dielectric); });
+  gpu::RenderTargets nearest{
+      .colors = {{&images_.casterNormal, 0, nothing}, {&images_.casterReflectance, 0, nothing}},
+      .depth = depth,
+      .region = casterRegion_};
+  const gpu::RenderTargets through{
+      .colors = {{&images_.opticalDepth, 0, nothing}}, .depth = depth, .region = casterRegion_};
+  commands.render(nearest, [&] { drawSurfaces(commands, scene, programs_.mirror, MaterialType::mirror); });
   commands.barrier();
   commands.render(
-      {.colors = {{&images_.casterPosition, 0, std::nullopt}, {&images_.casterNormal, 0, std::nullopt}},
-       .depth = depth},
-      [&] { drawSurfaces(commands, programs_.dielectric, MaterialType::dielectric); });
+      through, [&] { drawSurfaces(commands, scene, programs_.viewTransmittance, MaterialType::dielectric); });
+  commands.barrier();
+  for (gpu::ColorAttachment& color : nearest.colors) color.clear.reset();
+  commands.render(nearest,
+                  [&] { drawSurfaces(commands, scene, programs_.dielectric, MaterialType::dielectric); });
 }
 
 void Renderer::lightDirectly(gpu::CommandList& commands) {
-  commands.dispatch(
-      programs_.direct, {settings_.size, 1},
-      DirectConstants{emitters_.address(), shadowProjections_.address(),
-                      static_cast<uint32_t>(shadows_.emitters.size())},
-      {images_.receiverPosition, images_.receiverNormal, {shadowMaps_, shadowSampler_}, images_.directLux});
   commands.clear(images_.causticsLux, vec4(0));
+  if (shadows_.emitters.empty()) commands.clear(images_.directLux, vec4(0));
+  for (const ShadowedEmitter& lit : shadows_.emitters) {
+    commands.barrier();
+    commands.dispatch(
+        programs_.direct, {settings_.size, 1}, directConstants(shadows_, lit),
+        {images_.receiverPosition, images_.receiverNormal, {shadowMaps_, shadowSampler_}, images_.directLux});
+  }
 }
 
-void Renderer::composite(gpu::CommandList& commands, const gpu::Program& program) {
-  commands.dispatch(
-      program, {settings_.size, 1},
-      CompositeConstants{gpuScene_.materials(), view_.forward, view_.right, view_.up, environment_.ambient,
-                         environment_.background},
-      {images_.receiverAlbedo, images_.directLux, images_.causticsLux, images_.casterNormal,
-       images_.opticalDepth, images_.luminance, images_.directLuminance, images_.causticsLuminance});
-}
-
-void Renderer::toneMap(gpu::CommandList& commands) {
-  commands.dispatch(programs_.toneMapping, {settings_.size, 1}, ToneConstants{exposure_},
-                    {images_.luminance, images_.picture});
+// Everywhere as if there were no casters, then again where there may be.
+void Renderer::composite(gpu::CommandList& commands, bool writesLayers) {
+  const gpu::Region whole{{0, 0}, settings_.size};
+  for (const bool seesCasters : {false, true}) {
+    const gpu::Region region = seesCasters ? casterRegion_ : whole;
+    if (seesCasters) commands.barrier();
+    commands.dispatch(programs_.composite[writesLayers][seesCasters], {region.size, 1},
+                      CompositeConstants{gpuScene_.materials(), region.corner, ivec2(region.size),
+                                         environment_.ambient, environment_.background, exposure_},
+                      {images_.receiverAlbedo, images_.directLux, images_.causticsLux,
+                       images_.casterReflectance, images_.opticalDepth, images_.picture, images_.luminance,
+                       images_.directLuminance, images_.causticsLuminance});
+  }
 }
 
 ByteImage Renderer::picture() const {
@@ -206,9 +273,8 @@ void writeChannels(Image& layers, const std::string& prefix, std::string_view na
 }  // namespace
 
 Image Renderer::layers() {
-  device_.submitAndWait([&](gpu::CommandList& commands) {
-    commands.pass("layers", [&] { composite(commands, programs_.compositeLayers); });
-  });
+  device_.submitAndWait(
+      [&](gpu::CommandList& commands) { commands.pass("layers", [&] { composite(commands, true); }); });
   Image layers;
   layers.width = settings_.size.x;
   layers.height = settings_.size.y;
@@ -216,18 +282,17 @@ Image Renderer::layers() {
   writeChannels(layers, "direct.", "RGB", gpu::download<vec4>(device_, images_.directLuminance));
   writeChannels(layers, "caustics.", "RGB", gpu::download<vec4>(device_, images_.causticsLuminance));
 
-  auto positions = gpu::download<vec4>(device_, images_.receiverPosition);
   auto normals = gpu::download<vec4>(device_, images_.receiverNormal);
-  const auto casterPositions = gpu::download<vec4>(device_, images_.casterPosition);
   const auto casterNormals = gpu::download<vec4>(device_, images_.casterNormal);
-  std::vector<vec4> depths(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (casterPositions[i].a > 0) {
-      positions[i] = casterPositions[i];
-      normals[i] = casterNormals[i];
+  const uvec2 first(casterRegion_.corner);
+  for (uint32_t y = first.y; y < first.y + casterRegion_.size.y; ++y)
+    for (uint32_t x = first.x; x < first.x + casterRegion_.size.x; ++x) {
+      const std::size_t i = std::size_t{y} * settings_.size.x + x;
+      if (casterNormals[i].a > 0) normals[i] = casterNormals[i];
     }
-    if (positions[i].a > 0) depths[i].x = dot(vec3(positions[i]) - view_.eye, view_.forward);
-  }
+  std::vector<vec4> depths;
+  for (const float depth : gpu::download<float>(device_, images_.depth))
+    depths.emplace_back(depth > 0 ? view_.nearest / depth : 0.0f);
   writeChannels(layers, "depth.", "Z", depths);
   writeChannels(layers, "normal.", "XYZ", normals);
   return layers;

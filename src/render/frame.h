@@ -16,11 +16,10 @@ struct RenderSettings {
 
 // A pinhole camera as passes are told of it. World space.
 struct View {
-  mat4 worldToClip;  // y down, depth 1 near to 0 at infinity
+  mat4 worldToClip;  // y down; depth is `nearest` over the distance along `forward`
   vec3 eye;          // m
   vec3 forward;      // unit
-  vec3 right;        // half the width of what is seen at distance 1
-  vec3 up;           // half its height
+  float nearest;     // m
 };
 
 class Renderer {
@@ -45,13 +44,13 @@ class Renderer {
 
  private:
   void planShadows(const Scene& scene);
-  void drawShadowMaps(gpu::CommandList& commands);
-  void drawReceivers(gpu::CommandList& commands);
-  void drawCasters(gpu::CommandList& commands);
+  void drawShadowMaps(gpu::CommandList& commands, const Scene& scene);
+  void drawReceivers(gpu::CommandList& commands, const Scene& scene);
+  void drawCasters(gpu::CommandList& commands, const Scene& scene);
   void lightDirectly(gpu::CommandList& commands);
-  void composite(gpu::CommandList& commands, const gpu::Program& program);
-  void toneMap(gpu::CommandList& commands);
-  void drawSurfaces(gpu::CommandList& commands, const gpu::Program& program, MaterialType type);
+  void composite(gpu::CommandList& commands, bool writesLayers);
+  void drawSurfaces(gpu::CommandList& commands, const Scene& scene, const gpu::Program& program,
+                    MaterialType type);
 
   gpu::Device& device_;
   Technique& technique_;
@@ -61,14 +60,13 @@ class Renderer {
   FrameImages images_;
   gpu::Image shadowMaps_;
   gpu::Sampler shadowSampler_;
-  gpu::Buffer emitters_;
-  gpu::Buffer shadowProjections_;
 
   // Of the frame being made.
   View view_{};
   Environment environment_;
   float exposure_ = 1;
-  std::vector<MeshExtent> extents_;
+  std::vector<MeshExtent> extents_;  // of the meshes
+  gpu::Region casterRegion_;         // pixels outside it see no caster
   ShadowPlan shadows_;
 };
 

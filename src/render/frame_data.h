@@ -8,64 +8,44 @@
 
 SHARED_BEGIN
 
-// An emitter and the shadow maps that see what stands in its light: none, one, or the six faces of a cube in
-// the order +x, -x, +y, -y, +z, -z.
-struct ShadowedEmitter {
-  Emitter emitter;
-  uint firstMap;
-  uint mapCount;
-  float texelSize;          // m, width of a map's texel on a surface facing the light, at clip w:
-  float texelSizePerDepth;  // texelSize + texelSizePerDepth * w
-};
-
-SHARED_END
-
-#ifndef __cplusplus
-layout(buffer_reference, scalar) readonly buffer ShadowedEmitters {
-  ShadowedEmitter emitter[];
-};
-struct ShadowProjection {
-  mat4 worldToMap;
-};
-layout(buffer_reference, scalar) readonly buffer ShadowProjections {
-  ShadowProjection map[];
-};
-#endif
-
-SHARED_BEGIN
-
 struct ShadowConstants {
   BUFFER_ADDRESS(SceneVertices) vertices;
-  BUFFER_ADDRESS(SceneObjects) objects;
-  mat4 worldToMap;
-  uint object;
+  mat4 objectToMap;
 };
 
+// Material and emitter travel with the constants: software devices read memory one thread at a time.
 struct SurfaceConstants {
   BUFFER_ADDRESS(SceneVertices) vertices;
   BUFFER_ADDRESS(SceneObjects) objects;
-  BUFFER_ADDRESS(SceneMaterials) materials;
   mat4 worldToClip;
   vec3 eye;  // m
   uint object;
+  vec3 color;  // reflectance of a diffuse surface or a mirror; absorption (1/m) of a dielectric
+  float ior;   // of a dielectric; 0 for a mirror
+  uint material;
 };
 
 struct DirectConstants {
-  BUFFER_ADDRESS(ShadowedEmitters) emitters;
-  BUFFER_ADDRESS(ShadowProjections) maps;
-  uint emitterCount;
+  Emitter emitter;
+  vec4 mapX;  // a point's place in the map: dot(mapX, (point, 1)) and mapY, over the depth in a perspective
+  vec4 mapY;
+  vec4 mapDepth;     // m along the map's axis in a perspective, else the map's depth
+  float depthScale;  // perspective: the map's depth is depthScale + depthOffset / dot(mapDepth, (point, 1))
+  float depthOffset;
+  float texelSize;          // m, width of a map's texel on a surface facing the light is
+  float texelSizePerDepth;  // texelSize + texelSizePerDepth * depth; 0 unless in perspective
+  uint firstMap;
+  uint
+      mapCount;  // 0: nothing can shade; 1; or 6, the faces of a cube about the light: +x, -x, +y, -y, +z, -z
+  uint isFirst;  // of the emitters: writes, where the others add
 };
 
 struct CompositeConstants {
   BUFFER_ADDRESS(SceneMaterials) materials;
-  vec3 forward;     // unit, along the view
-  vec3 right;       // half the width of what is seen at distance 1
-  vec3 up;          // half its height
+  ivec2 corner;     // pixels: where the part of the picture begins that is made
+  ivec2 size;       // and how large it is
   vec3 ambient;     // lux
   vec3 background;  // nit
-};
-
-struct ToneConstants {
   float exposure;
 };
 

@@ -6,7 +6,6 @@
 #include "shaders/receiver_frag.h"
 #include "shaders/shadow_vert.h"
 #include "shaders/surface_vert.h"
-#include "shaders/tone_mapping_comp.h"
 #include "shaders/view_transmittance_frag.h"
 
 namespace nephroid {
@@ -26,8 +25,8 @@ FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t heig
   images.receiverPosition = image("receiver position");
   images.receiverNormal = image("receiver normal");
   images.receiverAlbedo = image("receiver albedo");
-  images.casterPosition = image("caster position");
   images.casterNormal = image("caster normal");
+  images.casterReflectance = image("caster reflectance");
   images.opticalDepth = image("optical depth");
   images.directLux = image("direct lux");
   images.causticsLux = image("caustics lux");
@@ -38,13 +37,11 @@ FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t heig
   return images;
 }
 
-FramePrograms createFramePrograms(gpu::Device& device) {
-  const auto compute = [&](const char* name, std::span<const uint32_t> words, uint32_t choice = 0) {
-    return gpu::createComputeProgram(device, name, words, {{0, choice}});
-  };
+FramePrograms createFramePrograms(gpu::Device& device, bool hasEmission) {
+  using Choices = std::vector<gpu::SpecializationConstant>;
   const auto surface = [&](const char* name, std::span<const uint32_t> fragment,
-                           const gpu::RasterState& state) {
-    return gpu::createRasterProgram(device, name, shaders::surface_vert, fragment, state);
+                           const gpu::RasterState& state, const Choices& choices = {}) {
+    return gpu::createRasterProgram(device, name, shaders::surface_vert, fragment, state, choices);
   };
   gpu::RasterState receiver;
   receiver.colors = {{kFloats}, {kFloats}, {kFloats}};
@@ -63,13 +60,16 @@ FramePrograms createFramePrograms(gpu::Device& device) {
   FramePrograms programs;
   programs.shadow = gpu::createRasterProgram(device, "shadow", shaders::shadow_vert, {}, shadow);
   programs.receiver = surface("receiver", shaders::receiver_frag, receiver);
+  programs.texturedReceiver = surface("textured receiver", shaders::receiver_frag, receiver, {{0, VK_TRUE}});
   programs.mirror = surface("mirror", shaders::caster_frag, mirror);
   programs.viewTransmittance = surface("view transmittance", shaders::view_transmittance_frag, transmittance);
   programs.dielectric = surface("dielectric", shaders::caster_frag, dielectric);
-  programs.direct = compute("direct", shaders::direct_comp);
-  programs.composite = compute("composite", shaders::composite_comp);
-  programs.compositeLayers = compute("composite layers", shaders::composite_comp, VK_TRUE);
-  programs.toneMapping = compute("tone mapping", shaders::tone_mapping_comp);
+  programs.direct = gpu::createComputeProgram(device, "direct", shaders::direct_comp);
+  for (const uint32_t writesLayers : {0u, 1u})
+    for (const uint32_t seesCasters : {0u, 1u})
+      programs.composite[writesLayers][seesCasters] =
+          gpu::createComputeProgram(device, "composite", shaders::composite_comp,
+                                    {{0, writesLayers}, {1, hasEmission}, {2, seesCasters}});
   return programs;
 }
 

@@ -1,6 +1,8 @@
 // The images a frame is made in and the programs that make it.
 #pragma once
 
+#include <array>
+
 #include "gpu/program.h"
 #include "gpu/resources.h"
 
@@ -11,13 +13,14 @@ struct FrameImages {
   gpu::Image depth;             // d32, reversed: 1 near, 0 infinitely far
   gpu::Image receiverPosition;  // m, a = 1 where there is a receiver
   gpu::Image receiverNormal;    // unit, on the side of the viewer
-  gpu::Image receiverAlbedo;    // a = material
-  gpu::Image casterPosition;    // m, a = object + 1 where a caster is in front of the receiver, else 0
-  gpu::Image casterNormal;      // unit, on the side of the viewer, a = material + 1, else 0
+  gpu::Image receiverAlbedo;    // a = material + 1 where there is a receiver, else 0
+  gpu::Image casterNormal;  // unit, on the side of the viewer, a = object + 1 of the nearest caster in front
+                            // of it, else 0
+  gpu::Image casterReflectance;  // a = 1 where the caster lets nothing through
   gpu::Image opticalDepth;  // of the dielectrics in front of the receiver: rgb by absorption, a by reflection
   gpu::Image directLux;     // a = 1 where there is a receiver
   gpu::Image causticsLux;
-  gpu::Image luminance;          // nit
+  gpu::Image luminance;          // nit; filled for layers only
   gpu::Image directLuminance;    // nit; filled for layers only
   gpu::Image causticsLuminance;  // nit; filled for layers only
   gpu::Image picture;            // rgba8, sRGB
@@ -28,15 +31,16 @@ FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t heig
 struct FramePrograms {
   gpu::Program shadow;
   gpu::Program receiver;
+  gpu::Program texturedReceiver;
   gpu::Program mirror;
   gpu::Program viewTransmittance;
   gpu::Program dielectric;
   gpu::Program direct;
-  gpu::Program composite;
-  gpu::Program compositeLayers;
-  gpu::Program toneMapping;
+  // Luminance and picture, where a caster may be in front (second index 1) and where none is, without and
+  // with (first index 1) layers.
+  std::array<std::array<gpu::Program, 2>, 2> composite;
 };
 
-FramePrograms createFramePrograms(gpu::Device& device);
+FramePrograms createFramePrograms(gpu::Device& device, bool hasEmission);
 
 }  // namespace nephroid

@@ -6,6 +6,5 @@ layout(push_constant, scalar) uniform Constants { ShadowConstants constants; };
 
 void main() {
   const SceneVertex vertex = constants.vertices.vertex[gl_VertexIndex];
-  const SceneObject object = constants.objects.object[constants.object];
-  gl_Position = constants.worldToMap * vec4(worldPoint(object, vertex.position), 1);
+  gl_Position = constants.objectToMap * vec4(vertex.position, 1);
 }

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "render/frame_data.h"
+#include "optics/emitter.h"
 #include "scene/scene.h"
 
 namespace nephroid {
@@ -23,6 +23,16 @@ MeshExtent extentOf(const Mesh& mesh);
 struct ShadowMap {
   mat4 worldToMap{1};             // to clip space, depth 0 at the light and 1 at the far end
   std::vector<uint32_t> objects;  // indices of those that reach into it
+};
+
+// An emitter and the maps that see what stands in its light: none, one, or the six faces of a cube in the
+// order +x, -x, +y, -y, +z, -z.
+struct ShadowedEmitter {
+  Emitter emitter{};
+  uint32_t firstMap = 0;
+  uint32_t mapCount = 0;
+  float texelSize = 0;          // m, width of a map's texel on a surface facing the light, at clip w:
+  float texelSizePerDepth = 0;  // texelSize + texelSizePerDepth * w; 0 unless in perspective
 };
 
 struct ShadowPlan {

@@ -14,16 +14,13 @@ layout(location = 2) in vec2 texcoord;
 layout(location = 0) out vec4 opticalDepth;  // rgb of absorption, a of Fresnel reflection
 
 void main() {
-  const SceneMaterial material = constants.materials.material[constants.objects.object[constants.object].material];
   const vec4 receiver = imageLoad(receiverPosition, ivec2(gl_FragCoord.xy));
   // Without a receiver every way in has a way out, and the lengths are counted from the eye.
   const float end = receiver.a > 0 ? distance(receiver.xyz, constants.eye) : 0;
   const vec3 fromEye = position - constants.eye;
   const float start = length(fromEye);
   const float inside = gl_FrontFacing ? end - start : start - end;
-  const vec3 absorption =
-      -log(max(material.attenuationColor, vec3(1e-6))) * material.inverseAttenuationDistance;
   const float cosine = min(abs(dot(fromEye, normalize(normal))) / start, 1);
-  const float reflectance = fresnelReflectance(cosine, 1 / material.ior);
-  opticalDepth = vec4(absorption * inside, -log(max(1 - reflectance, 1e-3)));
+  const float reflectance = fresnelReflectance(cosine, 1 / constants.ior);
+  opticalDepth = vec4(constants.color * inside, -log(max(1 - reflectance, 1e-3)));
 }
