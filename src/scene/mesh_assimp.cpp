@@ -18,9 +18,8 @@ vec3 vectorOf(const aiVector3D& v) {
 }
 
 // The meshes of a node and of those below it, each where its node puts it.
-void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, bool& everyPieceHasNormals,
-            Mesh& mesh) {
-  const aiMatrix4x4 transform = parent * node.mTransformation;
+void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& transform,
+            bool& everyPieceHasNormals, Mesh& mesh) {
   const aiMatrix3x3 forNormals = aiMatrix3x3(transform).Inverse().Transpose();
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& piece = *scene.mMeshes[node.mMeshes[i]];
@@ -37,7 +36,8 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent,
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i)
-    append(scene, *node.mChildren[i], transform, everyPieceHasNormals, mesh);
+    append(scene, *node.mChildren[i], transform * node.mChildren[i]->mTransformation, everyPieceHasNormals,
+           mesh);
 }
 
 Mesh read(const std::string& bytes, const std::string& source, const char* format) {
@@ -49,6 +49,8 @@ Mesh read(const std::string& bytes, const std::string& source, const char* forma
     if (!scene || !scene->mRootNode)
       throw InputError(source + ": cannot be read: " + importer.GetErrorString());
     bool everyPieceHasNormals = true;
+    // Coordinates stay as the file has them: the root's own transform is Assimp's turn from z up to y up, for
+    // .3ds.
     append(*scene, *scene->mRootNode, aiMatrix4x4(), everyPieceHasNormals, mesh);
     if (!everyPieceHasNormals) mesh.normals.clear();
   } catch (const InputError& error) {
