@@ -66,6 +66,44 @@ class SceneCommand : public testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(SceneCommand, InfoSaysWhatASceneHolds) {
+  const ProgramResult result = runProgram({"info", at("scene.toml")});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_NE(result.output.find("sensor"), std::string::npos) << result.output;
+}
+
+TEST_F(SceneCommand, BakedTablesAreUsedForTheirSceneAndRefusedForAnother) {
+  const std::string ball = R"(
+[[material]]
+name = "glass"
+type = "dielectric"
+ior = 1.5
+[[object]]
+name = "ball"
+material = "glass"
+shape = "sphere"
+radius = 0.3
+vertices = 200
+translation = [0, 1, 0]
+)";
+  writeScene("ball.toml", kFloor + ball);
+  const std::string cache = "XDG_CACHE_HOME=" + folder.path().string();
+  ASSERT_EQ(
+      runProgram({"bake", at("ball.toml"), "-o", at("ball.tables"), "--directions", "33"}, cache).status, 0);
+  const auto measure = [&](const char* directions) {
+    return runProgram(
+        {"measure", at("ball.toml"), "--sensor", "floor", "-o", at("floor.exr"), "--planes", "sensor",
+         "--source", "table", "--directions", directions, "--baked", at("ball.tables")},
+        cache);
+  };
+  EXPECT_EQ(measure("33").status, 0) << measure("33").errors;
+  const ProgramResult other = measure("129");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(other.hasOneLineOfErrors()) << other.errors;
+  EXPECT_NE(other.errors.find("ball.tables"), std::string::npos) << other.errors;
+  EXPECT_EQ(runProgram({"bake", at("scene.toml"), "-o", at("none.tables")}, cache).status, 2);
+}
+
 TEST_F(SceneCommand, MeasureWritesWhatThePointLightSends) {
   const ProgramResult result =
       runProgram({"measure", at("scene.toml"), "--sensor", "floor", "-o", at("floor.exr"), "--planes",

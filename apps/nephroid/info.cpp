@@ -4,7 +4,10 @@
 #include "command.h"
 #include "core/error.h"
 #include "gpu/device.h"
+#include "scene/diagnose.h"
+#include "scene/load.h"
 #include "techniques/registry.h"
+#include "transport/table/table_file.h"
 
 namespace nephroid {
 namespace {
@@ -26,15 +29,26 @@ void printDevices() {
 void printProgram() {
   std::cout << "nephroid   " NEPHROID_VERSION "\n"
             << "Embree     " NEPHROID_EMBREE_VERSION "\n"
-            << "techniques " << joined(techniqueList()) << '\n';
+            << "techniques " << joined(techniqueList()) << "\n"
+            << "tables     " << tableCacheFolder().string() << "\n";
   printDevices();
+}
+
+void runInfo(const std::filesystem::path& sceneFile) {
+  if (sceneFile.empty()) return printProgram();
+  const Scene scene = loadScene(sceneFile);
+  std::cout << describe(scene, diagnose(scene));
 }
 
 }  // namespace
 
 Command addInfo(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("info", "Versions, techniques and devices");
-  return {command, printProgram};
+  CLI::App* command = program.add_subcommand("info",
+                                             "Versions, techniques and devices; for a scene what was loaded, "
+                                             "and what will make no caustics, and why");
+  const auto scene = std::make_shared<std::filesystem::path>();
+  command->add_option("SCENE", *scene, "The scene: a .toml, .gltf or .glb file")->type_name("");
+  return {command, [scene] { runInfo(*scene); }};
 }
 
 }  // namespace nephroid
