@@ -10,6 +10,8 @@
 namespace nephroid {
 namespace {
 
+constexpr double kFoldsOfAScan = 0.01;  // part of all triangles
+
 std::string counted(std::size_t n, const char* singular, const char* plural) {
   return std::to_string(n) + " " + (n == 1 ? singular : plural);
 }
@@ -28,8 +30,7 @@ std::size_t trianglesAgainstNormals(const Mesh& mesh) {
   }));
 }
 
-void judgeSurface(const Object& object, const Mesh& mesh, const MeshTopology& topology,
-                  CasterReport& report) {
+void judgeSurface(const Mesh& mesh, const MeshTopology& topology, CasterReport& report) {
   auto& obstacles = report.obstacles;
   if (!mesh.isClosed && topology.boundaryEdges > 0) {
     obstacles.push_back("its mesh is open (" +
@@ -50,10 +51,14 @@ void judgeSurface(const Object& object, const Mesh& mesh, const MeshTopology& to
                         " m^3): turn them round");
   }
   const std::size_t against = trianglesAgainstNormals(mesh);
-  if (against > 0 && !object.water) {
-    obstacles.push_back(counted(against, "triangle", "triangles") + " of " +
-                        std::to_string(mesh.triangles.size()) +
-                        " have normals on the other side than their winding");
+  if (against > 0) {
+    // A few folds of a scan do no harm.
+    auto& lines = static_cast<double>(against) > kFoldsOfAScan * static_cast<double>(mesh.triangles.size())
+                      ? obstacles
+                      : report.notes;
+    lines.push_back(counted(against, "triangle", "triangles") + " of " +
+                    std::to_string(mesh.triangles.size()) +
+                    " look another way than the normals at their corners");
   }
 }
 
@@ -104,7 +109,7 @@ CasterReport judge(const Scene& scene, uint32_t index, bool hasReceiver) {
   report.nonManifoldEdges = topology.nonManifoldEdges;
   // A mirror sends light on from each face by itself, and water is open by its nature.
   if (scene.materialOf(object).type == MaterialType::dielectric && !object.water) {
-    judgeSurface(object, mesh, topology, report);
+    judgeSurface(mesh, topology, report);
   }
   judgeMaterial(scene.materialOf(object), report);
   judgeLight(scene, object, report);
