@@ -31,8 +31,11 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& transfo
     }
     for (unsigned f = 0; f < piece.mNumFaces; ++f) {
       const aiFace& face = piece.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // points and lines
-      mesh.triangles.push_back(first + uvec3(face.mIndices[0], face.mIndices[1], face.mIndices[2]));
+      // Points and lines have fewer corners. Assimp's own triangulation ends the program on some broken
+      // faces.
+      for (unsigned k = 2; k < face.mNumIndices; ++k) {
+        mesh.triangles.push_back(first + uvec3(face.mIndices[0], face.mIndices[k - 1], face.mIndices[k]));
+      }
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i)
@@ -44,8 +47,8 @@ Mesh read(const std::string& bytes, const std::string& source, const char* forma
   Mesh mesh;
   try {
     Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFileFromMemory(
-        bytes.data(), bytes.size(), aiProcess_Triangulate | aiProcess_ValidateDataStructure, format);
+    const aiScene* scene =
+        importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_ValidateDataStructure, format);
     if (!scene || !scene->mRootNode)
       throw InputError(source + ": cannot be read: " + importer.GetErrorString());
     bool everyPieceHasNormals = true;
