@@ -35,6 +35,7 @@ TEST(CommandLine, NamesTheNearestOfWhatItDoesNotKnow) {
   expectWrong({"--hepl"}, "did you mean '--help'?");
   expectWrong({"info", "--hepl"}, "did you mean '--help'?");
   expectWrong({"info", "a.toml", "b.toml"}, "toml");
+  expectWrong({"bench", "light-transport-tabel"}, "did you mean 'light-transport-table'?");
 }
 
 constexpr const char* kFloor = R"(

@@ -25,6 +25,7 @@ struct Command {
 Command addRender(CLI::App& program);
 Command addMeasure(CLI::App& program);
 Command addBake(CLI::App& program);
+Command addBench(CLI::App& program);
 Command addInfo(CLI::App& program);
 
 // What most commands share.
@@ -52,6 +53,9 @@ void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorK
 // any will do) or is the scene itself.
 void checkOutput(const std::filesystem::path& file, const std::filesystem::path& scene,
                  std::initializer_list<const char*> extensions = {});
+
+// For CLI11's check(): empty where the value is one of `names`, or else what is wrong and which is nearest.
+std::function<std::string(const std::string&)> oneOf(std::vector<std::string> names);
 
 // The names of all techniques.
 std::vector<std::string> techniqueList();

@@ -11,16 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// For CLI11's check(): empty where the value is one of `names`.
-auto oneOf(std::vector<std::string> names) {
-  return [names = std::move(names)](const std::string& value) -> std::string {
-    if (std::find(names.begin(), names.end(), value) != names.end()) return {};
-    const std::string nearest = nearestName(value, names);
-    return "there is no '" + value + "' in this version; " +
-           (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") + "There are: " + joined(names);
-  };
-}
-
 template <class Choice, std::size_t Count>
 void addChoice(CLI::App& command, const std::string& flag, Choice& choice,
                const std::array<const char*, Count>& names, const std::string& help) {
@@ -44,6 +34,15 @@ std::string joined(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
+}
+
+std::function<std::string(const std::string&)> oneOf(std::vector<std::string> names) {
+  return [names = std::move(names)](const std::string& value) -> std::string {
+    if (std::find(names.begin(), names.end(), value) != names.end()) return {};
+    const std::string nearest = nearestName(value, names);
+    return "there is no '" + value + "' in this version; " +
+           (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") + "There are: " + joined(names);
+  };
 }
 
 std::vector<std::string> techniqueList() {

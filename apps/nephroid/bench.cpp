@@ -1,0 +1,42 @@
+#include <iostream>
+#include <memory>
+
+#include "command.h"
+#include "core/atomic_file.h"
+#include "report/paper_tables.h"
+
+namespace nephroid {
+namespace {
+
+struct BenchOptions {
+  std::vector<std::string> names;
+  std::filesystem::path json;
+  bool isQuiet = false;
+};
+
+void runBench(const BenchOptions& options) {
+  if (!options.json.empty()) checkOutput(options.json, {});
+  Progress progress(progressDisplay(options.isQuiet));
+  std::vector<PaperTable> tables;
+  for (const std::string& name : options.names.empty() ? paperTableNames() : options.names) {
+    tables.push_back(measurePaperTable(name, progress));
+    std::cout << describe(tables.back()) << std::flush;
+  }
+  if (!options.json.empty()) writeFileAtomically(options.json, paperTablesJson(tables));
+}
+
+}  // namespace
+
+Command addBench(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("bench", "The papers' tables measured here, theirs beside ours");
+  const auto options = std::make_shared<BenchOptions>();
+  command->add_option("NAME", options->names, "Which: " + joined(paperTableNames()) + ". Left out: all")
+      ->check(oneOf(paperTableNames()))
+      ->type_name("");
+  command->add_option("--json", options->json, "Where to write the figures as JSON as well")
+      ->type_name("FILE");
+  addQuiet(*command, options->isQuiet);
+  return {command, [options] { runBench(*options); }};
+}
+
+}  // namespace nephroid
