@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/image_io.h"
 #include "gpu_fixture.h"
 #include "render/frame.h"
 #include "techniques/registry.h"
@@ -345,6 +346,23 @@ TEST_F(Frame, EmissionMirrorsAndBackgroundAreSeen) {
   const std::size_t below = (kSize.y - 8) * kSize.x + kSize.x / 2;
   expectClose(at(image, "", below), vec3(7, 8, 9), kFloat, below);
   EXPECT_EQ(image.find("depth.Z")->at(0), 0);
+}
+
+// Above black and below its shoulder the tone mapper takes 0.04 off and leaves colours as they are.
+TEST_F(Frame, APictureIsExposedLuminanceInSrgb) {
+  Scene scene = floorScene();
+  scene.materials[0].color = vec3(0);
+  scene.camera.exposure = 0.5f;
+  for (int step = 0; step < 12; ++step) {
+    const vec3 shown = vec3(0.1f, 0.2f, 0.3f) + 0.04f * static_cast<float>(step);
+    scene.materials[0].emission = (shown + 0.04f) / scene.camera.exposure;
+    layersOf(scene);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(picture_.bytes[static_cast<std::size_t>(c)], 255 * srgbFromLinear(shown[c]), 0.52);
+  }
+  scene.materials[0].emission = vec3(1e6f);
+  layersOf(scene);
+  EXPECT_EQ(picture_.bytes[0], 255);
 }
 
 TEST_F(Frame, TheSameSceneGivesTheSameBytesAndAMovedLightOthers) {

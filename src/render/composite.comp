@@ -43,7 +43,7 @@ void main() {
     const vec3 transmittance = (1 - caster.a) * exp(-depth.rgb - depth.a);
     direct *= transmittance;
     caustics *= transmittance;
-    rest = rest * transmittance + caster.rgb * constants.background;
+    rest = rest * transmittance + min(caster.rgb, vec3(1)) * constants.background;
   }
   const vec3 total = direct + caustics + rest;
   const vec3 shown = toneMapped(max(constants.exposure * total, vec3(0)));

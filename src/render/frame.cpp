@@ -85,8 +85,6 @@ DirectConstants directConstants(const ShadowPlan& plan, const ShadowedEmitter& l
   constants.texelSize = lit.texelSize;
   constants.texelSizePerDepth = lit.texelSizePerDepth;
   constants.firstMap = lit.firstMap;
-  constants.mapCount = lit.mapCount;
-  constants.isFirst = &lit == plan.emitters.data();
   if (lit.mapCount == 0) return constants;
   // In a perspective the third row is depthScale times the fourth, and depthOffset.
   const mat4 rows = glm::transpose(plan.maps[lit.firstMap].worldToMap);
@@ -117,29 +115,45 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const RenderSettings
 
 std::vector<PassTime> Renderer::render(const Scene& scene) {
   std::vector<PassTime> passes;
-  view_ = viewOf(scene.camera, settings_.size);
-  environment_ = scene.environment;
-  exposure_ = scene.camera.exposure;
-  onHost(passes, "placement", [&] {
-    gpuScene_.place(scene);
-    for (const Object& object : scene.objects)
-      if (object.water) extents_[object.mesh] = extentOf(scene.meshOf(object));
-    casterRegion_ = casterRegion(scene, extents_, view_, settings_.size);
-  });
+  onHost(passes, "placement", [&] { place(scene); });
   onHost(passes, "shadow projections", [&] { planShadows(scene); });
   onHost(passes, "beams", [&] { technique_.update(scene, gpuScene_); });
 
   const std::vector<PassTime> onDevice = device_.submitAndWait([&](gpu::CommandList& commands) {
-    commands.pass("shadow maps", [&] { drawShadowMaps(commands, scene); });
+    commands.pass("shadow maps", [&] { drawShadowMaps(commands); });
     technique_.record(commands, gpuScene_);
-    commands.pass("receivers", [&] { drawReceivers(commands, scene); });
-    commands.pass("casters", [&] { drawCasters(commands, scene); });
+    commands.pass("receivers", [&] { drawReceivers(commands); });
+    commands.pass("casters", [&] { drawCasters(commands); });
     commands.pass("direct light", [&] { lightDirectly(commands); });
     technique_.shade(commands, {&images_.receiverPosition, &images_.receiverNormal}, images_.causticsLux);
     commands.pass("composite", [&] { composite(commands, false); });
   });
   passes.insert(passes.end(), onDevice.begin(), onDevice.end());
   return passes;
+}
+
+void Renderer::place(const Scene& scene) {
+  view_ = viewOf(scene.camera, settings_.size);
+  environment_ = scene.environment;
+  exposure_ = scene.camera.exposure;
+  gpuScene_.place(scene);
+  surfaces_.clear();
+  for (uint32_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const Material& material = scene.materialOf(object);
+    if (object.water) extents_[object.mesh] = extentOf(scene.meshOf(object));
+    Surface surface{material.type, material.colorTexture != kNone, toWorld(object.placement), {}};
+    surface.constants.vertices = gpuScene_.vertices();
+    surface.constants.objects = gpuScene_.objects();
+    surface.constants.worldToClip = view_.worldToClip;
+    surface.constants.eye = view_.eye;
+    surface.constants.object = i;
+    surface.constants.color = surfaceColor(material);
+    surface.constants.ior = material.ior.y;
+    surface.constants.material = object.material;
+    surfaces_.push_back(surface);
+  }
+  casterRegion_ = casterRegion(scene, extents_, view_, settings_.size);
 }
 
 void Renderer::planShadows(const Scene& scene) {
@@ -154,86 +168,77 @@ void Renderer::planShadows(const Scene& scene) {
                                     .layers = layers});
 }
 
-void Renderer::drawShadowMaps(gpu::CommandList& commands, const Scene& scene) {
+void Renderer::drawShadowMaps(gpu::CommandList& commands) {
   for (uint32_t layer = 0; layer < shadows_.maps.size(); ++layer) {
     const ShadowMap& map = shadows_.maps[layer];
     commands.render({.colors = {}, .depth = gpu::DepthAttachment{&shadowMaps_, layer, 1.0f}}, [&] {
-      for (const uint32_t object : map.objects)
+      for (const ShadowCaster& caster : map.casters)
         commands.drawIndexed(
-            programs_.shadow, gpuScene_.indices(), gpuScene_.draws()[object].range, 1,
-            ShadowConstants{gpuScene_.vertices(), map.worldToMap * toWorld(scene.objects[object].placement)});
+            caster.hidesItsFarSide ? programs_.closedShadow : programs_.shadow, gpuScene_.indices(),
+            gpuScene_.draws()[caster.object].range, 1,
+            ShadowConstants{gpuScene_.vertices(), map.worldToMap * surfaces_[caster.object].toWorld});
     });
   }
 }
 
-void Renderer::drawSurfaces(gpu::CommandList& commands, const Scene& scene, const gpu::Program& program,
-                            MaterialType type) {
-  for (const SceneDraw& draw : gpuScene_.draws()) {
-    if (draw.type != type) continue;
-    const Object& object = scene.objects[draw.object];
-    const Material& material = scene.materialOf(object);
-    SurfaceConstants constants{};
-    constants.vertices = gpuScene_.vertices();
-    constants.objects = gpuScene_.objects();
-    constants.worldToClip = view_.worldToClip;
-    constants.eye = view_.eye;
-    constants.object = draw.object;
-    constants.color = surfaceColor(material);
-    constants.ior = type == MaterialType::dielectric ? material.ior.y : 0;
-    constants.material = object.material;
+void Renderer::drawSurfaces(gpu::CommandList& commands, const gpu::Program& program, MaterialType type) {
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const Surface& surface = surfaces_[i];
+    const SceneDraw& draw = gpuScene_.draws()[i];
+    if (surface.type != type) continue;
     const auto drawWith = [&](const gpu::Program& chosen, gpu::Bindings bindings) {
-      commands.drawIndexed(chosen, gpuScene_.indices(), draw.range, 1, constants, bindings);
+      commands.drawIndexed(chosen, gpuScene_.indices(), draw.range, 1, surface.constants, bindings);
     };
     if (type == MaterialType::diffuse)
-      drawWith(material.colorTexture == kNone ? program : programs_.texturedReceiver,
+      drawWith(surface.isTextured ? programs_.texturedReceiver : program,
                {{*draw.colorTexture, gpuScene_.textureSampler()}});
-    else if (&program == &programs_.viewTransmittance)
+    else if (&program == &programs_.dielectric)
       drawWith(program, {images_.receiverPosition});
     else
       drawWith(program, {});
   }
 }
 
-void Renderer::drawReceivers(gpu::CommandList& commands, const Scene& scene) {
+void Renderer::drawReceivers(gpu::CommandList& commands) {
   const vec4 nothing(0);
   commands.render({.colors = {{&images_.receiverPosition, 0, nothing},
                               {&images_.receiverNormal, 0, nothing},
                               {&images_.receiverAlbedo, 0, nothing}},
                    .depth = gpu::DepthAttachment{&images_.depth, 0, 0.0f}},
-                  [&] { drawSurfaces(commands, scene, programs_.receiver, MaterialType::diffuse); });
+                  [&] { drawSurfaces(commands, programs_.receiver, MaterialType::diffuse); });
 }
 
-// Mirrors first, then all that glass in front of them and of the receivers takes away, then the nearest
-// glass.
-void Renderer::drawCasters(gpu::CommandList& commands, const Scene& scene) {
+// Mirrors first, then all the glass in front of them and of the receivers.
+void Renderer::drawCasters(gpu::CommandList& commands) {
   if (casterRegion_.size.x == 0) return;
-  const vec4 nothing(0);
-  const gpu::DepthAttachment depth{&images_.depth, 0, std::nullopt};
-  gpu::RenderTargets nearest{
-      .colors = {{&images_.casterNormal, 0, nothing}, {&images_.casterReflectance, 0, nothing}},
-      .depth = depth,
-      .region = casterRegion_};
-  const gpu::RenderTargets through{
-      .colors = {{&images_.opticalDepth, 0, nothing}}, .depth = depth, .region = casterRegion_};
-  commands.render(nearest, [&] { drawSurfaces(commands, scene, programs_.mirror, MaterialType::mirror); });
-  commands.barrier();
-  commands.render(
-      through, [&] { drawSurfaces(commands, scene, programs_.viewTransmittance, MaterialType::dielectric); });
-  commands.barrier();
-  for (gpu::ColorAttachment& color : nearest.colors) color.clear.reset();
-  commands.render(nearest,
-                  [&] { drawSurfaces(commands, scene, programs_.dielectric, MaterialType::dielectric); });
+  commands.render({.colors = {{&images_.opticalDepth, 0, vec4(0)}, {&images_.casterReflectance, 0, vec4(0)}},
+                   .depth = gpu::DepthAttachment{&images_.depth, 0, std::nullopt},
+                   .region = casterRegion_},
+                  [&] {
+                    drawSurfaces(commands, programs_.mirror, MaterialType::mirror);
+                    drawSurfaces(commands, programs_.dielectric, MaterialType::dielectric);
+                  });
+}
+
+void Renderer::drawNearestCasters(gpu::CommandList& commands) {
+  if (casterRegion_.size.x == 0) return;
+  commands.render({.colors = {{&images_.casterNormal, 0, vec4(0)}},
+                   .depth = gpu::DepthAttachment{&images_.depth, 0, std::nullopt},
+                   .region = casterRegion_},
+                  [&] {
+                    drawSurfaces(commands, programs_.nearestCaster, MaterialType::mirror);
+                    drawSurfaces(commands, programs_.nearestCaster, MaterialType::dielectric);
+                  });
 }
 
 void Renderer::lightDirectly(gpu::CommandList& commands) {
   commands.clear(images_.causticsLux, vec4(0));
-  if (shadows_.emitters.empty()) commands.clear(images_.directLux, vec4(0));
-  for (const ShadowedEmitter& lit : shadows_.emitters) {
-    commands.barrier();
-    commands.dispatch(
-        programs_.direct, {settings_.size, 1}, directConstants(shadows_, lit),
-        {images_.receiverPosition, images_.receiverNormal, {shadowMaps_, shadowSampler_}, images_.directLux});
-  }
+  commands.render({.colors = {{&images_.directLux, 0, vec4(0)}}}, [&] {
+    for (const ShadowedEmitter& lit : shadows_.emitters)
+      commands.draw(programs_.direct.at({lit.emitter.type, lit.mapCount}), 3, 1,
+                    directConstants(shadows_, lit),
+                    {images_.receiverPosition, images_.receiverNormal, {shadowMaps_, shadowSampler_}});
+  });
 }
 
 // Everywhere as if there were no casters, then again where there may be.
@@ -273,8 +278,12 @@ void writeChannels(Image& layers, const std::string& prefix, std::string_view na
 }  // namespace
 
 Image Renderer::layers() {
-  device_.submitAndWait(
-      [&](gpu::CommandList& commands) { commands.pass("layers", [&] { composite(commands, true); }); });
+  device_.submitAndWait([&](gpu::CommandList& commands) {
+    commands.pass("layers", [&] {
+      composite(commands, true);
+      drawNearestCasters(commands);
+    });
+  });
   Image layers;
   layers.width = settings_.size.x;
   layers.height = settings_.size.y;

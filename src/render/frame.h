@@ -3,6 +3,7 @@
 
 #include "core/image.h"
 #include "core/stats.h"
+#include "render/frame_data.h"
 #include "render/frame_resources.h"
 #include "render/shadow_maps.h"
 #include "techniques/technique.h"
@@ -22,6 +23,14 @@ struct View {
   float nearest;     // m
 };
 
+// An object as the passes of a frame draw it.
+struct Surface {
+  MaterialType type = MaterialType::diffuse;
+  bool isTextured = false;
+  mat4 toWorld{1};
+  SurfaceConstants constants{};
+};
+
 class Renderer {
  public:
   // Device and technique outlive it. `scene` gives objects, meshes and textures; what moves is taken at each
@@ -35,22 +44,23 @@ class Renderer {
   // Of the last frame: exposed, tone-mapped, sRGB, RGB.
   ByteImage picture() const;
 
-  // Of the last frame: R,G,B luminance (nit); direct.R,G,B and caustics.R,G,B, the parts of it that came from
-  // light that met no caster and from light that met one; depth.Z (m along the view, 0 where there is
-  // nothing) and normal.X,Y,Z of the nearest surface.
+  // Of the last frame: R,G,B luminance (nit); direct.R,G,B and caustics.R,G,B, the
+  // parts of it that came from light that met no caster and from light that met one; depth.Z (m along the
+  // view, 0 where there is nothing) and normal.X,Y,Z of the nearest surface.
   Image layers();
 
   GpuScene& gpuScene() { return gpuScene_; }
 
  private:
+  void place(const Scene& scene);
   void planShadows(const Scene& scene);
-  void drawShadowMaps(gpu::CommandList& commands, const Scene& scene);
-  void drawReceivers(gpu::CommandList& commands, const Scene& scene);
-  void drawCasters(gpu::CommandList& commands, const Scene& scene);
+  void drawShadowMaps(gpu::CommandList& commands);
+  void drawReceivers(gpu::CommandList& commands);
+  void drawCasters(gpu::CommandList& commands);
+  void drawNearestCasters(gpu::CommandList& commands);
   void lightDirectly(gpu::CommandList& commands);
   void composite(gpu::CommandList& commands, bool writesLayers);
-  void drawSurfaces(gpu::CommandList& commands, const Scene& scene, const gpu::Program& program,
-                    MaterialType type);
+  void drawSurfaces(gpu::CommandList& commands, const gpu::Program& program, MaterialType type);
 
   gpu::Device& device_;
   Technique& technique_;
@@ -63,6 +73,7 @@ class Renderer {
 
   // Of the frame being made.
   View view_{};
+  std::vector<Surface> surfaces_;  // of the objects
   Environment environment_;
   float exposure_ = 1;
   std::vector<MeshExtent> extents_;  // of the meshes

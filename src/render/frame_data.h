@@ -35,9 +35,6 @@ struct DirectConstants {
   float texelSize;          // m, width of a map's texel on a surface facing the light is
   float texelSizePerDepth;  // texelSize + texelSizePerDepth * depth; 0 unless in perspective
   uint firstMap;
-  uint
-      mapCount;  // 0: nothing can shade; 1; or 6, the faces of a cube about the light: +x, -x, +y, -y, +z, -z
-  uint isFirst;  // of the emitters: writes, where the others add
 };
 
 struct CompositeConstants {

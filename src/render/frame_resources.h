@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <utility>
 
 #include "gpu/program.h"
 #include "gpu/resources.h"
@@ -15,8 +17,8 @@ struct FrameImages {
   gpu::Image receiverNormal;    // unit, on the side of the viewer
   gpu::Image receiverAlbedo;    // a = material + 1 where there is a receiver, else 0
   gpu::Image casterNormal;  // unit, on the side of the viewer, a = object + 1 of the nearest caster in front
-                            // of it, else 0
-  gpu::Image casterReflectance;  // a = 1 where the caster lets nothing through
+                            // of the receiver, else 0; filled for layers only
+  gpu::Image casterReflectance;  // a = 1 where nothing is seen through the caster
   gpu::Image opticalDepth;  // of the dielectrics in front of the receiver: rgb by absorption, a by reflection
   gpu::Image directLux;     // a = 1 where there is a receiver
   gpu::Image causticsLux;
@@ -30,12 +32,15 @@ FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t heig
 
 struct FramePrograms {
   gpu::Program shadow;
+  gpu::Program
+      closedShadow;  // for closed objects about which the light is not: their far sides shade nothing more
   gpu::Program receiver;
   gpu::Program texturedReceiver;
   gpu::Program mirror;
-  gpu::Program viewTransmittance;
   gpu::Program dielectric;
-  gpu::Program direct;
+  gpu::Program nearestCaster;
+  std::map<std::pair<uint32_t, uint32_t>, gpu::Program>
+      direct;  // by kEmitter... and count of shadow maps (0, 1 or 6)
   // Luminance and picture, where a caster may be in front (second index 1) and where none is, without and
   // with (first index 1) layers.
   std::array<std::array<gpu::Program, 2>, 2> composite;

@@ -21,6 +21,7 @@ struct PlacedObject {
   Sphere sphere;
   bool isFlat = false;
   vec3 normal{0};
+  bool isClosed = false;
 };
 
 PlacedObject placed(const Scene& scene, const std::vector<MeshExtent>& extents, uint32_t index) {
@@ -36,6 +37,7 @@ PlacedObject placed(const Scene& scene, const std::vector<MeshExtent>& extents, 
                    extent.radius * object.placement.scale};
   result.isFlat = extent.isFlat;
   result.normal = object.placement.direction(extent.normal);
+  result.isClosed = scene.meshes[object.mesh].isClosed;
   return result;
 }
 
@@ -118,7 +120,7 @@ class Planner {
     if (!shadowing_.empty()) {
       sphere_ = boundsOf(shadowing_);
       sphere_.radius *= 1.02f;  // room for the filter
-      for (const mat4& projection : projections(lit)) plan.maps.push_back(map(projection));
+      for (const mat4& projection : projections(lit)) plan.maps.push_back(map(projection, emitter));
     }
     lit.mapCount = static_cast<uint32_t>(plan.maps.size()) - lit.firstMap;
     plan.emitters.push_back(lit);
@@ -155,11 +157,15 @@ class Planner {
     return faces;
   }
 
-  ShadowMap map(const mat4& worldToMap) const {
+  ShadowMap map(const mat4& worldToMap, const Emitter& emitter) const {
     ShadowMap result;
     result.worldToMap = worldToMap;
-    for (const PlacedObject& object : shadowing_)
-      if (reachesInto(worldToMap, object.sphere)) result.objects.push_back(object.index);
+    for (const PlacedObject& object : shadowing_) {
+      if (!reachesInto(worldToMap, object.sphere)) continue;
+      const bool isOutside = emitter.type == kEmitterDirectional ||
+                             distance(emitter.position, object.sphere.center) > object.sphere.radius;
+      result.casters.push_back({object.index, object.isClosed && isOutside});
+    }
     return result;
   }
 

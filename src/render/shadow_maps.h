@@ -20,9 +20,15 @@ struct MeshExtent {
 
 MeshExtent extentOf(const Mesh& mesh);
 
+struct ShadowCaster {
+  uint32_t object = 0;  // index
+  bool hidesItsFarSide =
+      false;  // closed, and the light is outside: its near side shades all that the far side would
+};
+
 struct ShadowMap {
-  mat4 worldToMap{1};             // to clip space, depth 0 at the light and 1 at the far end
-  std::vector<uint32_t> objects;  // indices of those that reach into it
+  mat4 worldToMap{1};                 // to clip space, depth 0 at the light and 1 at the far end
+  std::vector<ShadowCaster> casters;  // those that reach into it
 };
 
 // An emitter and the maps that see what stands in its light: none, one, or the six faces of a cube in the

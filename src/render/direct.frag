@@ -3,12 +3,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/frame_data.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint kEmitterType = kEmitterPoint;
+layout(constant_id = 1) const uint kMapCount = 1;  // 0: nothing can shade; 1; or 6, the faces of a cube about the light: +x, -x, +y, -y, +z, -z
 layout(push_constant, scalar) uniform Constants { DirectConstants constants; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
 layout(set = 0, binding = 2) uniform sampler2DArray shadowMaps;
-layout(set = 0, binding = 3, rgba32f) uniform image2D directLux;
+layout(location = 0) out vec4 directLux;  // added to that of other emitters
 
 // Place and depth of `point` in the map, before the division by depth.
 vec3 projected(vec3 point) {
@@ -36,8 +37,8 @@ vec3 projectedOnCube(vec3 offset, float tangent, out uint face) {
 // The part of the light that a tent three texels wide finds unhindered. The point is moved off its surface so far that a plane
 // never shades itself within the filter: (filter radius) * texel * sin(angle of incidence) along the normal.
 float visibility(vec3 point, vec3 normal, float cosine) {
-  const bool isPerspective = constants.texelSizePerDepth > 0;
-  const bool isCube = constants.mapCount > 1;
+  const bool isPerspective = kEmitterType != kEmitterDirectional;
+  const bool isCube = kMapCount > 1;
   const vec2 texels = vec2(textureSize(shadowMaps, 0).xy);
   const float tangent = 0.5 * constants.texelSizePerDepth * texels.x;
   uint face = 0;
@@ -66,16 +67,16 @@ float visibility(vec3 point, vec3 normal, float cosine) {
 }
 
 void main() {
-  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, imageSize(directLux)))) return;
+  const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const vec4 point = imageLoad(receiverPosition, pixel);
   const vec3 normal = imageLoad(receiverNormal, pixel).xyz;
-  const float cosine = -dot(emitterDirection(constants.emitter, point.xyz), normal);
+  Emitter emitter = constants.emitter;
+  emitter.type = kEmitterType;
+  const float cosine = -dot(emitterDirection(emitter, point.xyz), normal);
   vec3 lux = vec3(0);
   if (point.a > 0 && cosine > 0) {
-    lux = cosine * emitterIlluminance(constants.emitter, point.xyz);
-    if (constants.mapCount > 0) lux *= visibility(point.xyz, normal, cosine);
+    lux = cosine * emitterIlluminance(emitter, point.xyz);
+    if (kMapCount > 0) lux *= visibility(point.xyz, normal, cosine);
   }
-  if (constants.isFirst == 0) lux += imageLoad(directLux, pixel).rgb;
-  imageStore(directLux, pixel, vec4(lux, 1));
+  directLux = vec4(lux, 0);
 }
