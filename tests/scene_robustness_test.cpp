@@ -8,9 +8,6 @@
 #include "scene/mesh_file.h"
 #include "scratch_files.h"
 
-// Assimp leaks a little of its own when it gives a file up.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp"; }
-
 namespace nephroid {
 namespace {
 

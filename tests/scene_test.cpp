@@ -367,7 +367,7 @@ TEST_F(SceneFile, TrianglesWithoutAreaAreLeftOutAndCounted) {
   EXPECT_NEAR(meshTopology(scene.meshes[0]).signedVolume, 1.0 / 6, 1e-6);
 }
 
-TEST_F(SceneFile, APolyMeshReadsLikeItsObj) {
+TEST_F(SceneFile, APlyMeshReadsLikeItsObj) {
   write("t.ply",
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
         "element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"

@@ -37,7 +37,8 @@ void requireShallow(std::string_view json, const std::string& source) {
 // The first chunk of a GLB.
 std::string_view jsonOf(std::string_view bytes) {
   std::size_t length = 0;
-  for (std::size_t i = 16; bytes.size() > 20 && i-- > 12;) length = length << 8 | static_cast<unsigned char>(bytes[i]);
+  for (std::size_t i = 16; bytes.size() > 20 && i-- > 12;)
+    length = length << 8 | static_cast<unsigned char>(bytes[i]);
   return bytes.size() > 20 ? bytes.substr(20, length) : std::string_view();
 }
 

@@ -275,8 +275,8 @@ Mesh makePlane(vec2 size, Density density) {
   }));
   Mesh mesh;
   addGrid(mesh, c.x, c.y, [&](uint32_t i, uint32_t j) {
-    return ShapePoint{
-        {between(-size.x / 2, size.x / 2, i, c.x), 0, between(size.y / 2, -size.y / 2, j, c.y)}, {0, 1, 0}};
+    return ShapePoint{{between(-size.x / 2, size.x / 2, i, c.x), 0, between(size.y / 2, -size.y / 2, j, c.y)},
+                      {0, 1, 0}};
   });
   return finished(std::move(mesh), "plane");
 }

@@ -8,7 +8,6 @@
 #include "scene/mesh_checks.h"
 #include "scene/mesh_file.h"
 #include "scene/mesh_formats.h"
-#include "scene/ply_check.h"
 
 namespace nephroid {
 namespace {
@@ -43,17 +42,18 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& transfo
            mesh);
 }
 
-Mesh read(const std::string& bytes, const std::string& source, const char* format) {
+}  // namespace
+
+Mesh read3ds(const std::string& bytes, const std::string& source) {
   Mesh mesh;
   try {
     Assimp::Importer importer;
     const aiScene* scene =
-        importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_ValidateDataStructure, format);
+        importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_ValidateDataStructure, "3ds");
     if (!scene || !scene->mRootNode)
       throw InputError(source + ": cannot be read: " + importer.GetErrorString());
     bool everyPieceHasNormals = true;
-    // Coordinates stay as the file has them: the root's own transform is Assimp's turn from z up to y up, for
-    // .3ds.
+    // Coordinates stay as the file has them: the root's own transform is Assimp's turn from z up to y up.
     append(*scene, *scene->mRootNode, aiMatrix4x4(), everyPieceHasNormals, mesh);
     if (!everyPieceHasNormals) mesh.normals.clear();
   } catch (const InputError& error) {
@@ -63,17 +63,6 @@ Mesh read(const std::string& bytes, const std::string& source, const char* forma
   }
   finishMesh(mesh, source);
   return mesh;
-}
-
-}  // namespace
-
-Mesh readPly(const std::string& bytes, const std::string& source) {
-  requirePlausiblePly(bytes, source);
-  return read(bytes, source, "ply");
-}
-
-Mesh read3ds(const std::string& bytes, const std::string& source) {
-  return read(bytes, source, "3ds");
 }
 
 }  // namespace nephroid
