@@ -5,42 +5,13 @@
 #include "gpu_fixture.h"
 #include "render/frame.h"
 #include "techniques/registry.h"
+#include "test_meshes.h"
 
 namespace nephroid {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr uvec2 kSize(160, 120);
-
-Mesh plane(float halfSize) {
-  Mesh mesh;
-  mesh.positions = {
-      {-halfSize, 0, -halfSize}, {-halfSize, 0, halfSize}, {halfSize, 0, halfSize}, {halfSize, 0, -halfSize}};
-  mesh.normals.assign(4, vec3(0, 1, 0));
-  mesh.texcoords = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return mesh;
-}
-
-Mesh box(vec3 halfSize) {
-  Mesh mesh;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const float side : {-1.0f, 1.0f}) {
-      vec3 n(0), a(0), b(0);
-      n[axis] = side;
-      a[(axis + 1) % 3] = 1;
-      b = cross(n, a);
-      const auto first = static_cast<uint32_t>(mesh.positions.size());
-      for (const vec2 s : {vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1)}) {
-        mesh.positions.push_back((n + s.x * a + s.y * b) * halfSize);
-        mesh.normals.push_back(n);
-      }
-      mesh.triangles.push_back({first, first + 1, first + 2});
-      mesh.triangles.push_back({first, first + 2, first + 3});
-    }
-  mesh.isClosed = true;
-  return mesh;
-}
 
 // A floor of 12 m seen from above.
 Scene floorScene() {
