@@ -178,7 +178,8 @@ struct FileCase {
 class Robustness : public ScratchFiles, public testing::WithParamInterface<FileCase> {};
 
 TEST_P(Robustness, EndsInASceneOrAnInputError) {
-  const auto& [name, good] = GetParam();
+  const std::string name = GetParam().name;
+  const std::string& good = GetParam().bytes;
   const auto load = [&](const std::string& bytes) {
     const auto path = write(name, bytes);
     const std::string extension = path.extension().string();
@@ -201,7 +202,7 @@ TEST_P(Robustness, EndsInASceneOrAnInputError) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
     } catch (const std::exception& error) {
-      write("failing-" + std::string(name), bytes);
+      write("failing-" + name, bytes);
       FAIL() << "mutation " << i << ": " << error.what();
     }
   }
