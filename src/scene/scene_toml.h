@@ -7,7 +7,7 @@
 
 namespace nephroid {
 
-// A scene file as INTERFACE describes it. Throws InputError.
+// The scene in a .toml file. Throws InputError.
 Scene loadTomlScene(const std::filesystem::path& file, double time);
 
 // The parts of it. Each adds to `scene` what its tables say.
