@@ -6,5 +6,5 @@ build=$1
 
 git ls-files 'src/*.cpp' 'apps/*.cpp' |
   xargs -r -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet --warnings-as-errors='*' 2>&1 |
-  { grep -vE '^[0-9]+ warnings? generated|^Suppressed|^Use -header-filter|^$' || true; }
+  { grep --line-buffered -vE '^[0-9]+ warnings? generated|^Suppressed|^Use -header-filter|^$' || true; }
 exit "${PIPESTATUS[1]}"

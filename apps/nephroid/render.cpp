@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "command.h"
-#include "core/interrupt.h"
 #include "render/frame.h"
 #include "scene/load.h"
 #include "techniques/registry.h"
@@ -56,22 +55,29 @@ void writePicture(Renderer& renderer, const TechniqueSettings& settings, const f
     writeExr(output, renderer.layers(), imageAttributes(settings, "nit"));
 }
 
-// A frame and what it took; with it the times of all its repetitions.
-std::vector<std::pair<double, std::vector<PassTime>>> drawFrame(const RenderOptions& options,
-                                                                const FrameJob& job, gpu::Device& device,
-                                                                Progress& progress, Stats& stats) {
+struct FrameTime {
+  double milliseconds = 0;
+  std::vector<PassTime> passes;
+};
+
+// Draws and writes a frame; returns the times of all its repetitions.
+std::vector<FrameTime> drawFrame(const RenderOptions& options, const FrameJob& job, gpu::Device& device,
+                                 Progress& progress, Stats& stats) {
   const Stopwatch preparing;
   const Scene scene = loadScene(options.scene, job.time);
   const auto technique = makeTechnique({device, scene, options.technique, progress, stats});
   Renderer renderer(device, scene, options.render, *technique);
   stats.prepareMilliseconds += preparing.milliseconds();
 
-  std::vector<std::pair<double, std::vector<PassTime>>> times;
-  for (uint32_t i = 0; i < options.repeat; ++i) {
+  std::vector<FrameTime> times(options.repeat);
+  progress.begin(job.output.filename().string(), options.repeat);
+  for (FrameTime& time : times) {
     const Stopwatch frame;
-    std::vector<PassTime> passes = renderer.render(scene);
-    times.emplace_back(frame.milliseconds(), std::move(passes));
+    time.passes = renderer.render(scene);
+    time.milliseconds = frame.milliseconds();
+    progress.advance();
   }
+  progress.finish();
   stats.memoryBytes = std::max(stats.memoryBytes, device.memoryBytes());
   writePicture(renderer, options.technique, job.output);
   return times;
@@ -90,15 +96,16 @@ void runRender(const RenderOptions& options) {
   stats.technique = options.technique.technique;
   stats.source = nameOf(options.technique.source);
 
-  std::vector<std::pair<double, std::vector<PassTime>>> times;
+  std::vector<FrameTime> times;
   for (const FrameJob& job : jobs) {
-    auto part = drawFrame(options, job, device, progress, stats);
+    std::vector<FrameTime> part = drawFrame(options, job, device, progress, stats);
     std::move(part.begin(), part.end(), std::back_inserter(times));
-    throwIfInterrupted();
   }
-  std::sort(times.begin(), times.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  stats.frameMilliseconds = times[times.size() / 2].first;
-  stats.passes = times[times.size() / 2].second;
+  std::sort(times.begin(), times.end(),
+            [](const FrameTime& a, const FrameTime& b) { return a.milliseconds < b.milliseconds; });
+  const FrameTime& middle = times[times.size() / 2];
+  stats.frameMilliseconds = middle.milliseconds;
+  stats.passes = middle.passes;
   writeStats(options.stats, stats);
 }
 
