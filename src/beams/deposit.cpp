@@ -23,7 +23,7 @@ class FluxGrid {
   void addSliver(vec2 a, vec2 b, vec2 c, glm::dvec3 flux) {
     const float peak = sortSliver(a, b, c);
     const vec2 along = c - a;
-    const int steps = int(std::clamp(std::ceil(2 * length(along)), 1.0f, 4096.0f));
+    const int steps = sliverSteps(a, c);
     double before = 0;
     for (int i = 0; i < steps; ++i) {
       const double after = tentBefore(float(i + 1) / float(steps), peak);
@@ -36,14 +36,16 @@ class FluxGrid {
     const vec2 lower = floor(min(min(a, b), c));
     const vec2 upper = floor(max(max(a, b), c));
     if (lower == upper) return add(lower, flux);
-    if (isSliver(a, b, c)) return addSliver(a, b, c, flux);
-    const double area = 0.5 * std::abs(doubledArea(a - lower, b - lower, c - lower));
+    vec2 localA = a, localB = b, localC = c, origin;
+    centerFootprint(localA, localB, localC, origin);
+    if (isSliver(localA, localB, localC)) return addSliver(a, b, c, flux);
+    const double area = 0.5 * std::abs(doubledArea(localA, localB, localC));
     const vec2 first = max(lower, vec2(0));
     const vec2 last = min(upper, vec2(resolution) - 1.0f);
     for (float y = first.y; y <= last.y; ++y)
       for (float x = first.x; x <= last.x; ++x) {
-        const vec2 texel = vec2(x, y) - lower;  // near the origin, where float has digits to spare
-        add(vec2(x, y), flux * (double(triangleCoverage(a - lower, b - lower, c - lower, texel)) / area));
+        const double covered = triangleCoverage(localA, localB, localC, vec2(x, y) - origin);
+        if (covered > 0) add(vec2(x, y), flux * (covered / area));
       }
   }
 

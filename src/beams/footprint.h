@@ -54,12 +54,30 @@ SHARED_FUNCTION float triangleCoverage(vec2 a, vec2 b, vec2 c, vec2 texel) {
   return abs(edgeCoverage(a, b, texel) + edgeCoverage(b, c, texel) + edgeCoverage(c, a, texel));
 }
 
-// A triangle this thin is a line: its area has too few digits left to be shared out by coverage.
+// Moves a footprint's corners to where float has digits to share it out with, and scales one smaller than a texel to the size of
+// one: it then lies across the lines x = 0 and y = 0 between the texels (-1 or 0, -1 or 0). Texel t of the grid becomes
+// t - `origin`. At a focus footprints are a hundredth of a texel, and which side of a line their flux falls on is visible.
+SHARED_FUNCTION void centerFootprint(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c, OUT(vec2) origin) {
+  vec2 lower = min(min(a, b), c);
+  vec2 upper = max(max(a, b), c);
+  float longest = max(upper.x - lower.x, upper.y - lower.y);
+  bool isSmall = longest < 1.0f;
+  origin = isSmall ? floor(upper) : floor(lower);
+  float scale = isSmall ? 1.0f / max(longest, 1e-20f) : 1.0f;
+  a = (a - origin) * scale;
+  b = (b - origin) * scale;
+  c = (c - origin) * scale;
+}
+
+// A centered footprint this thin is a line: its area has too few digits left to be shared out by coverage.
 SHARED_FUNCTION bool isSliver(vec2 a, vec2 b, vec2 c) {
   vec2 extent = max(max(a, b), c) - min(min(a, b), c);
   float longest = max(extent.x, extent.y);
-  return abs(doubledArea(a, b, c)) < 4e-3f * max(longest * longest, 0.1f);
+  return abs(doubledArea(a, b, c)) < 4e-3f * longest * longest;
 }
+
+// Pieces a sliver is shared out in.
+SHARED_FUNCTION int sliverSteps(vec2 a, vec2 c) { return int(clamp(ceil(2.0f * length(c - a)), 4.0f, 4096.0f)); }
 
 // A sliver's flux runs along its longest side as a tent with its peak at the third corner. After `sortSliver`, a and c are the
 // ends of the longest side and `peak` is where along it b lies (0 to 1).

@@ -12,6 +12,7 @@
 
 namespace nephroid {
 using glm::abs;
+using glm::ceil;
 using glm::clamp;
 using glm::cross;
 using glm::dot;
