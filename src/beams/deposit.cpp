@@ -36,15 +36,15 @@ class FluxGrid {
     const vec2 lower = floor(min(min(a, b), c));
     const vec2 upper = floor(max(max(a, b), c));
     if (lower == upper) return add(lower, flux);
-    vec2 localA = a, localB = b, localC = c, origin;
-    centerFootprint(localA, localB, localC, origin);
+    vec2 localA = a, localB = b, localC = c, base;
+    centerFootprint(localA, localB, localC, base);
     if (isSliver(localA, localB, localC)) return addSliver(a, b, c, flux);
     const double area = 0.5 * std::abs(doubledArea(localA, localB, localC));
     const vec2 first = max(lower, vec2(0));
     const vec2 last = min(upper, vec2(resolution) - 1.0f);
     for (float y = first.y; y <= last.y; ++y)
       for (float x = first.x; x <= last.x; ++x) {
-        const double covered = triangleCoverage(localA, localB, localC, vec2(x, y) - origin);
+        const double covered = triangleCoverage(localA, localB, localC, vec2(x, y) - base);
         if (covered > 0) add(vec2(x, y), flux * (covered / area));
       }
   }

@@ -54,19 +54,23 @@ SHARED_FUNCTION float triangleCoverage(vec2 a, vec2 b, vec2 c, vec2 texel) {
   return abs(edgeCoverage(a, b, texel) + edgeCoverage(b, c, texel) + edgeCoverage(c, a, texel));
 }
 
-// Moves a footprint's corners to where float has digits to share it out with, and scales one smaller than a texel to the size of
-// one: it then lies across the lines x = 0 and y = 0 between the texels (-1 or 0, -1 or 0). Texel t of the grid becomes
-// t - `origin`. At a focus footprints are a hundredth of a texel, and which side of a line their flux falls on is visible.
-SHARED_FUNCTION void centerFootprint(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c, OUT(vec2) origin) {
+// Moves a footprint's corners to where float has digits to share it out with: texel t of the grid becomes t - `base`. One smaller
+// than a texel is also scaled to the size of one; it then lies across the lines x = 0 and y = 0 between the texels -1 and 0, or
+// inside texel 0 where it crosses no line. At a focus footprints are a hundredth of a texel, and which side of a line their flux
+// falls on is visible.
+SHARED_FUNCTION void centerFootprint(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c, OUT(vec2) base) {
   vec2 lower = min(min(a, b), c);
   vec2 upper = max(max(a, b), c);
   float longest = max(upper.x - lower.x, upper.y - lower.y);
   bool isSmall = longest < 1.0f;
-  origin = isSmall ? floor(upper) : floor(lower);
+  base = isSmall ? floor(upper) : floor(lower);
+  vec2 shift = base;
+  if (isSmall && lower.x >= base.x) shift.x = lower.x;
+  if (isSmall && lower.y >= base.y) shift.y = lower.y;
   float scale = isSmall ? 1.0f / max(longest, 1e-20f) : 1.0f;
-  a = (a - origin) * scale;
-  b = (b - origin) * scale;
-  c = (c - origin) * scale;
+  a = (a - shift) * scale;
+  b = (b - shift) * scale;
+  c = (c - shift) * scale;
 }
 
 // A centered footprint this thin is a line: its area has too few digits left to be shared out by coverage.
