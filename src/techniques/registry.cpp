@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "techniques/illumination_textures/illumination_textures.h"
 
 namespace nephroid {
 namespace {
@@ -15,6 +16,7 @@ class NoCaustics final : public Technique {
 };
 
 constexpr TechniqueEntry kTechniques[] = {
+    {"illumination-textures", makeIlluminationTextures},
     {"none",
      [](const TechniqueContext&) -> std::unique_ptr<Technique> { return std::make_unique<NoCaustics>(); }},
 };

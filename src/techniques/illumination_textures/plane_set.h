@@ -1,0 +1,58 @@
+// The virtual planes around the receivers of one caster's light (Iwasaki 2005b, sections 3 and 4), once for C++ and GLSL.
+//
+// Planes stand across the mean direction of the light, `axisW`, at equal distances. Each holds a texture of illuminance, and
+// all share a virtual camera that looks along axisW. A texture has two windows of the same number of texels: an inner one about
+// where most of the flux arrives, and an outer one about where any does.
+#ifndef NEPHROID_TECHNIQUES_ILLUMINATION_TEXTURES_PLANE_SET_H
+#define NEPHROID_TECHNIQUES_ILLUMINATION_TEXTURES_PLANE_SET_H
+
+#include "beams/footprint.h"
+
+SHARED_BEGIN
+
+SHARED_CONSTANT uint kWindows = 2u;
+
+// A square of the virtual camera's view, in metres along axisU and axisV.
+struct Window {
+  vec2 corner;
+  float texelsPerMetre;
+};
+
+struct PlaneSet {
+  vec3 axisU;  // unit, along a row of texels
+  vec3 axisV;  // unit, down the rows
+  vec3 axisW;  // unit, mean direction of the light
+  float firstDepth;  // m along axisW, of the first plane
+  float depthStep;   // m between planes
+  uint planes;
+  uint textureSize;   // texels along a side
+  Window windows[2];  // inner, outer
+  vec3 luxMetresSquaredPerUnit;  // flux (lm) of one unit of the textures, by channel
+  float nearestDepth;  // m along axisW, what the virtual camera sees
+  float farthestDepth;
+};
+
+SHARED_FUNCTION PlaneGrid planeGrid(PlaneSet set, uint plane, uint window) {
+  Window w = set.windows[window];
+  PlaneGrid grid;
+  grid.corner = w.corner.x * set.axisU + w.corner.y * set.axisV + (set.firstDepth + float(plane) * set.depthStep) * set.axisW;
+  grid.axisU = w.texelsPerMetre * set.axisU;
+  grid.axisV = w.texelsPerMetre * set.axisV;
+  grid.normal = set.axisW;
+  return grid;
+}
+
+// Place in the window, in texels.
+SHARED_FUNCTION vec2 windowTexel(PlaneSet set, uint window, vec3 point) {
+  vec2 place = vec2(dot(point, set.axisU), dot(point, set.axisV));
+  return (place - set.windows[window].corner) * set.windows[window].texelsPerMetre;
+}
+
+// First word of a texture: planes of the inner window, then planes of the outer one.
+SHARED_FUNCTION uint textureStart(PlaneSet set, uint plane, uint window, uint channels) {
+  return (window * set.planes + plane) * set.textureSize * set.textureSize * channels;
+}
+
+SHARED_END
+
+#endif

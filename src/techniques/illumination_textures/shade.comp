@@ -1,0 +1,66 @@
+// Adds the light of one set of planes to the receiver points: blended from the two planes around each point, where the virtual
+// camera sees it (Iwasaki 2005b, 4.3).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "techniques/illumination_textures/shader_data.h"
+
+layout(constant_id = 0) const uint kChannels = 3;
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant, scalar) uniform Constants { ShadeConstants constants; };
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
+layout(set = 0, binding = 2) uniform texture2DArray receivers;
+layout(set = 0, binding = 3, rgba32f) uniform image2D causticsLux;
+
+// Units on the plane at a texel of the window.
+vec3 unitsAt(uint firstWord, uint textureSize, ivec2 texel) {
+  const uint word = firstWord + (uint(texel.y) * textureSize + uint(texel.x)) * kChannels;
+  if (kChannels == 1) return vec3(float(constants.textures.units[word]));
+  return vec3(float(constants.textures.units[word]), float(constants.textures.units[word + 1]),
+              float(constants.textures.units[word + 2]));
+}
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, imageSize(causticsLux)))) return;
+  const vec4 point = imageLoad(receiverPosition, pixel);
+  if (point.w == 0) return;
+  const PlaneSet set = constants.sets.set[constants.set];
+
+  const float last = float(set.textureSize) - 1;
+  uint window = 0;
+  vec2 place = windowTexel(set, 0, point.xyz) - 0.5;
+  if (any(lessThan(place, vec2(0))) || any(greaterThanEqual(place, vec2(last)))) {
+    window = 1;
+    place = windowTexel(set, 1, point.xyz) - 0.5;
+    if (any(lessThan(place, vec2(-0.5))) || any(greaterThanEqual(place, vec2(last + 0.5)))) return;
+    place = clamp(place, vec2(0), vec2(last - 1e-3));
+  }
+  const vec3 normal = imageLoad(receiverNormal, pixel).xyz;
+  const float depth = dot(point.xyz, set.axisW);
+  const float between = set.depthStep > 0 ? clamp((depth - set.firstDepth) / set.depthStep, 0, float(set.planes - 1)) : 0;
+  const uint nearer = min(uint(between), set.planes - 1);
+  const uint farther = min(nearer + 1, set.planes - 1);
+  const uint nearerStart = textureStart(set, nearer, window, kChannels);
+  const uint fartherStart = textureStart(set, farther, window, kChannels);
+
+  // A texel's own slope, and half a texel of its neighbour's, may part a point from what the virtual camera saw.
+  const float cosine = max(abs(dot(normal, set.axisW)), 0.05);
+  const float tolerance = 2.0 * sqrt(1 - cosine * cosine) / cosine / set.windows[window].texelsPerMetre +
+                          1e-4 * (set.farthestDepth - set.nearestDepth);
+  const ivec2 corner = ivec2(place);
+  const vec2 part = place - vec2(corner);
+  vec3 units = vec3(0);
+  for (int i = 0; i < 4; ++i) {
+    const ivec2 offset = ivec2(i & 1, i >> 1);
+    const vec4 seen = texelFetch(receivers, ivec3(corner + offset, window), 0);
+    if (depth > seen.w + tolerance || dot(normal, seen.xyz) <= 0) continue;
+    const vec2 weights = mix(1 - part, part, vec2(offset));
+    units += weights.x * weights.y * mix(unitsAt(nearerStart, set.textureSize, corner + offset),
+                                         unitsAt(fartherStart, set.textureSize, corner + offset), between - float(nearer));
+  }
+  const float texels = set.windows[window].texelsPerMetre;
+  const vec3 lux = units * set.luxMetresSquaredPerUnit * (texels * texels);
+  imageStore(causticsLux, pixel, imageLoad(causticsLux, pixel) + vec4(lux, 0));
+}
