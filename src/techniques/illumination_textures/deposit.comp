@@ -10,7 +10,6 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Constants { DepositConstants constants; };
 layout(set = 0, binding = 0) uniform texture2DArray receivers;  // normal toward the light and depth, a layer a window
 
-PlaneSet set;
 uint firstWord;
 int window;
 vec3 direction;      // of the beam where it crosses the plane
@@ -19,11 +18,11 @@ vec3 unitsOfFlux;    // of the beam, by channel
 
 // Puts a part of the beam's flux on a texel, as the illuminance of what the virtual camera sees there.
 void add(ivec2 texel, float part) {
-  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(set.textureSize)))) return;
+  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(constants.set.textureSize)))) return;
   const vec3 normal = texelFetch(receivers, ivec3(texel, window), 0).xyz;
   const float cosGamma = max(-dot(direction, normal), 0.0);
   const vec3 units = unitsOfFlux * (part * cosGamma / cosDelta) + 0.5;
-  const uint word = firstWord + (uint(texel.y) * set.textureSize + uint(texel.x)) * kChannels;
+  const uint word = firstWord + (uint(texel.y) * constants.set.textureSize + uint(texel.x)) * kChannels;
   for (uint c = 0; c < kChannels; ++c)
     if (units[c] >= 1.0) atomicAdd(constants.textures.units[word + c], uint(units[c]));
 }
@@ -46,8 +45,8 @@ void addTriangle(vec2 a, vec2 b, vec2 c) {
     add(ivec2(lower), 1);
     return;
   }
-  const vec2 size = vec2(set.textureSize);
-  if (any(lessThan(upper, vec2(0))) || any(greaterThanEqual(lower, size))) return;
+  const vec2 end = vec2(constants.set.textureSize);
+  if (any(lessThan(upper, vec2(0))) || any(greaterThanEqual(lower, end))) return;
   vec2 localA = a, localB = b, localC = c, base;
   centerFootprint(localA, localB, localC, base);
   if (isSliver(localA, localB, localC)) {
@@ -56,7 +55,7 @@ void addTriangle(vec2 a, vec2 b, vec2 c) {
   }
   const float perArea = 2.0 / abs(doubledArea(localA, localB, localC));
   const vec2 first = max(lower, vec2(0));
-  const vec2 last = min(upper, size - 1);
+  const vec2 last = min(upper, end - 1);
   for (float y = first.y; y <= last.y; ++y)
     for (float x = first.x; x <= last.x; ++x) {
       const float covered = triangleCoverage(localA, localB, localC, vec2(x, y) - base);
@@ -64,28 +63,37 @@ void addTriangle(vec2 a, vec2 b, vec2 c) {
     }
 }
 
+// Whether the outer window is asked for nothing this footprint lies on, because the inner one holds it, a texel's border included.
+bool innerWindowHolds(vec2 texel[3]) {
+  const float scale = constants.set.windows[0].texelsPerMetre / constants.set.windows[1].texelsPerMetre;
+  const vec2 offset = (constants.set.windows[1].corner - constants.set.windows[0].corner) * constants.set.windows[0].texelsPerMetre;
+  const vec2 least = min(min(texel[0], texel[1]), texel[2]) * scale + offset;
+  const vec2 most = max(max(texel[0], texel[1]), texel[2]) * scale + offset;
+  const float border = 1 + 2 * scale;
+  return all(greaterThan(least, vec2(border))) && all(lessThan(most, vec2(float(constants.set.textureSize) - border)));
+}
+
 void main() {
   if (gl_GlobalInvocationID.x >= constants.beamCount) return;
-  set = constants.sets.set[constants.set];
-  const uint plane = gl_GlobalInvocationID.y % set.planes;
-  window = int(gl_GlobalInvocationID.y / set.planes);
-  firstWord = textureStart(set, plane, uint(window), kChannels);
-  const PlaneGrid grid = planeGrid(set, plane, uint(window));
-  const Beam beam = constants.beams.beam[constants.firstBeam + gl_GlobalInvocationID.x];
+  const uint plane = gl_GlobalInvocationID.y % constants.set.planes;
+  window = int(gl_GlobalInvocationID.y / constants.set.planes);
+  firstWord = textureStart(constants.set, plane, uint(window), kChannels);
+  const PlaneGrid grid = planeGrid(constants.set, plane, uint(window));
+  const Beam beam = constants.beams.beam[gl_GlobalInvocationID.x];
 
   direction = normalize(beam.direction[0] + beam.direction[1] + beam.direction[2]);
-  cosDelta = dot(direction, set.axisW);
+  cosDelta = dot(direction, constants.set.axisW);
   if (cosDelta < kLeastApproach) return;
-  unitsOfFlux = beam.flux / set.luxMetresSquaredPerUnit;
+  unitsOfFlux = beam.flux / constants.set.luxMetresSquaredPerUnit;
 
   vec2 texel[3];
   bvec3 meets;
   float along;
   for (int i = 0; i < 3; ++i) meets[i] = meetPlane(beam.position[i], beam.direction[i], grid, texel[i], along);
   if (all(meets)) {
-    addTriangle(texel[0], texel[1], texel[2]);
-    return;
+    if (window == 0 || !innerWindowHolds(texel)) addTriangle(texel[0], texel[1], texel[2]);
+  } else {
+    for (int i = 0; i < 3; ++i)
+      if (meets[i]) add(ivec2(floor(texel[i])), 1.0 / 3.0);
   }
-  for (int i = 0; i < 3; ++i)
-    if (meets[i]) add(ivec2(floor(texel[i])), 1.0 / 3.0);
 }

@@ -76,7 +76,7 @@ class IlluminationTextures final : public Technique {
   // Of the frame being made.
   std::vector<LitCaster> lit;
   uint32_t channels = 3;
-  gpu::Buffer beamUpload, beams, planeSets, textures;
+  gpu::Buffer beamUpload, beams, textures;
   std::vector<gpu::Image> receiverViews;  // one for each lit caster: normals toward the light and depths, a layer a window
   gpu::Image receiverDepth;
 };
@@ -169,13 +169,11 @@ void IlluminationTextures::upload() {
   for (const LitCaster& caster : lit) beamCount += caster.beams.size();
   ensure<Beam>(device, beamUpload, "beams to upload", beamCount, gpu::MemoryKind::upload);
   ensure<Beam>(device, beams, "beams", beamCount, gpu::MemoryKind::device);
-  ensure<PlaneSet>(device, planeSets, "virtual planes", lit.size(), gpu::MemoryKind::upload);
   ensure<uint32_t>(device, textures, "illumination textures", textureWords(), gpu::MemoryKind::device);
   std::size_t first = 0;
-  for (std::size_t i = 0; i < lit.size(); ++i) {
-    beamUpload.write(lit[i].beams, first * sizeof(Beam));
-    planeSets.write(std::span<const PlaneSet>(&lit[i].planes, 1), i * sizeof(PlaneSet));
-    first += lit[i].beams.size();
+  for (const LitCaster& caster : lit) {
+    beamUpload.write(caster.beams, first * sizeof(Beam));
+    first += caster.beams.size();
   }
   const uint32_t side = settings.textureSize;
   while (receiverViews.size() < lit.size())
@@ -191,7 +189,7 @@ void IlluminationTextures::drawReceivers(gpu::CommandList& commands, GpuScene& g
       for (const SceneDraw& draw : gpuScene.draws())
         if (draw.type == MaterialType::diffuse)
           commands.drawIndexed(receiversProgram, gpuScene.indices(), draw.range, 1,
-                               ViewConstants{gpuScene.vertices(), gpuScene.objects(), planeSets.address(), draw.object, set, window});
+                               ViewConstants{lit[set].planes, gpuScene.vertices(), gpuScene.objects(), draw.object, window});
     });
     commands.barrier();
   }
@@ -211,7 +209,7 @@ void IlluminationTextures::record(gpu::CommandList& commands, GpuScene& gpuScene
       const PlaneSet& planes = lit[set].planes;
       const auto count = uint32_t(lit[set].beams.size());
       commands.dispatch(depositPrograms[channels == 3], {count, planes.planes * kWindows, 1},
-                        DepositConstants{beams.address(), planeSets.address(), texture, firstBeam, count, set},
+                        DepositConstants{planes, beams.address() + firstBeam * sizeof(Beam), texture, count},
                         {receiverViews[set]});
       firstBeam += count;
       texture += textureStart(planes, 0, kWindows, channels) * sizeof(uint32_t);
@@ -225,7 +223,7 @@ void IlluminationTextures::shade(gpu::CommandList& commands, const ReceiverPoint
     for (uint32_t set = 0; set < lit.size(); ++set) {
       commands.barrier();
       commands.dispatch(shadePrograms[channels == 3], {causticsLux.width(), causticsLux.height(), 1},
-                        ShadeConstants{planeSets.address(), texture, set},
+                        ShadeConstants{lit[set].planes, texture},
                         {*points.position, *points.normal, receiverViews[set], causticsLux});
       texture += textureStart(lit[set].planes, 0, kWindows, channels) * sizeof(uint32_t);
     }

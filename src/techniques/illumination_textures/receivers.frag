@@ -8,7 +8,7 @@ layout(location = 1) in float depth;
 layout(location = 0) out vec4 normalAndDepth;  // unit, toward the light; m along axisW
 
 void main() {
-  const vec3 axis = constants.sets.set[constants.set].axisW;
+  const vec3 axis = constants.set.axisW;
   const vec3 unit = normalize(normal);
   normalAndDepth = vec4(dot(unit, axis) < 0 ? unit : -unit, depth);
 }

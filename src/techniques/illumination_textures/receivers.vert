@@ -10,7 +10,7 @@ layout(location = 1) out float depth;
 void main() {
   const SceneVertex vertex = constants.vertices.vertex[gl_VertexIndex];
   const SceneObject object = constants.objects.object[constants.object];
-  const PlaneSet set = constants.sets.set[constants.set];
+  const PlaneSet set = constants.set;
   const vec3 position = worldPoint(object, vertex.position);
   normal = worldVector(object, vertex.normal);
   depth = dot(position, set.axisW);

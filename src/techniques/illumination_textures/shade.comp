@@ -26,7 +26,7 @@ void main() {
   if (any(greaterThanEqual(pixel, imageSize(causticsLux)))) return;
   const vec4 point = imageLoad(receiverPosition, pixel);
   if (point.w == 0) return;
-  const PlaneSet set = constants.sets.set[constants.set];
+  const PlaneSet set = constants.set;
 
   const float last = float(set.textureSize) - 1;
   uint window = 0;
@@ -37,7 +37,6 @@ void main() {
     if (any(lessThan(place, vec2(-0.5))) || any(greaterThanEqual(place, vec2(last + 0.5)))) return;
     place = clamp(place, vec2(0), vec2(last - 1e-3));
   }
-  const vec3 normal = imageLoad(receiverNormal, pixel).xyz;
   const float depth = dot(point.xyz, set.axisW);
   const float between = set.depthStep > 0 ? clamp((depth - set.firstDepth) / set.depthStep, 0, float(set.planes - 1)) : 0;
   const uint nearer = min(uint(between), set.planes - 1);
@@ -45,22 +44,32 @@ void main() {
   const uint nearerStart = textureStart(set, nearer, window, kChannels);
   const uint fartherStart = textureStart(set, farther, window, kChannels);
 
+  const ivec2 corner = ivec2(place);
+  vec3 units[4];
+  vec3 most = vec3(0);
+  for (int i = 0; i < 4; ++i) {
+    const ivec2 texel = corner + ivec2(i & 1, i >> 1);
+    units[i] = mix(unitsAt(nearerStart, set.textureSize, texel), unitsAt(fartherStart, set.textureSize, texel),
+                   between - float(nearer));
+    most = max(most, units[i]);
+  }
+  if (most == vec3(0)) return;
+
   // A texel's own slope, and half a texel of its neighbour's, may part a point from what the virtual camera saw.
+  const vec3 normal = imageLoad(receiverNormal, pixel).xyz;
   const float cosine = max(abs(dot(normal, set.axisW)), 0.05);
   const float tolerance = 2.0 * sqrt(1 - cosine * cosine) / cosine / set.windows[window].texelsPerMetre +
                           1e-4 * (set.farthestDepth - set.nearestDepth);
-  const ivec2 corner = ivec2(place);
   const vec2 part = place - vec2(corner);
-  vec3 units = vec3(0);
+  vec3 sum = vec3(0);
   for (int i = 0; i < 4; ++i) {
     const ivec2 offset = ivec2(i & 1, i >> 1);
     const vec4 seen = texelFetch(receivers, ivec3(corner + offset, window), 0);
     if (depth > seen.w + tolerance || dot(normal, seen.xyz) <= 0) continue;
     const vec2 weights = mix(1 - part, part, vec2(offset));
-    units += weights.x * weights.y * mix(unitsAt(nearerStart, set.textureSize, corner + offset),
-                                         unitsAt(fartherStart, set.textureSize, corner + offset), between - float(nearer));
+    sum += weights.x * weights.y * units[i];
   }
   const float texels = set.windows[window].texelsPerMetre;
-  const vec3 lux = units * set.luxMetresSquaredPerUnit * (texels * texels);
+  const vec3 lux = sum * set.luxMetresSquaredPerUnit * (texels * texels);
   imageStore(causticsLux, pixel, imageLoad(causticsLux, pixel) + vec4(lux, 0));
 }

@@ -18,34 +18,30 @@ SHARED_END
 
 #ifndef __cplusplus
 layout(buffer_reference, scalar) readonly buffer Beams { Beam beam[]; };
-layout(buffer_reference, scalar) readonly buffer PlaneSets { PlaneSet set[]; };
 layout(buffer_reference, scalar) buffer FluxUnits { uint units[]; };
 #endif
 
 SHARED_BEGIN
 
+// The planes travel with the push constants: a software device reads those once for all threads.
 struct DepositConstants {
+  PlaneSet set;
   BUFFER_ADDRESS(Beams) beams;
-  BUFFER_ADDRESS(PlaneSets) sets;
   BUFFER_ADDRESS(FluxUnits) textures;
-  uint firstBeam;
   uint beamCount;
-  uint set;
 };
 
 struct ViewConstants {
+  PlaneSet set;
   BUFFER_ADDRESS(SceneVertices) vertices;
   BUFFER_ADDRESS(SceneObjects) objects;
-  BUFFER_ADDRESS(PlaneSets) sets;
   uint object;
-  uint set;
   uint window;
 };
 
 struct ShadeConstants {
-  BUFFER_ADDRESS(PlaneSets) sets;
+  PlaneSet set;
   BUFFER_ADDRESS(FluxUnits) textures;
-  uint set;
 };
 
 SHARED_END
