@@ -1,13 +1,11 @@
-# Sourced by demo.sh and test.sh: configures and builds one folder.
+# Sourced by demo.sh and test.sh.
 
-# build FOLDER [cmake option ...]
+# build FOLDER [cmake option ...]: configures and builds; what CMake says is shown where it fails.
 build() {
-  local folder=$1
+  local folder=$1 said
   shift
-  local options=(-G Ninja "$@")
+  local options=("$@")
   if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
-  # Two compilers for each core is what small machines bear; big files take about 1 GiB.
-  cmake -S . -B "$folder" "${options[@]}" >"$folder.log" 2>&1 || { cat "$folder.log" >&2; return 1; }
-  rm -f "$folder.log"
+  said=$(cmake -S . -B "$folder" -G Ninja "${options[@]}" 2>&1) || { echo "$said" >&2; return 1; }
   cmake --build "$folder" --parallel "$(nproc)"
 }
