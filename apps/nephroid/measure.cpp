@@ -1,10 +1,12 @@
-#include <chrono>
+#include <functional>
 #include <memory>
+#include <optional>
 
 #include "command.h"
 #include "core/error.h"
 #include "core/image_io.h"
 #include "render/measure.h"
+#include "render/technique_meter.h"
 #include "scene/load.h"
 #include "techniques/sources.h"
 #include "transport/traced/traced_source.h"
@@ -30,6 +32,27 @@ const Sensor& sensorNamed(const Scene& scene, const std::string& name) {
                                       : "; did you mean '" + nearest + "'?"));
 }
 
+// Reads the caustics again and again; what stays the same is made once.
+using CausticsMeter = std::function<SensorLayer()>;
+
+// By the beams alone, cut by the sensor's own plane. Needs no device.
+CausticsMeter beamsMeter(const Scene& scene, const RayScene& rays, const Sensor& sensor,
+                         const TechniqueSettings& settings, Progress& progress, Stats& stats) {
+  const auto traced = std::make_shared<TracedSource>(scene, rays);
+  std::shared_ptr<TransportSource> source = traced;
+  if (settings.source == Source::table) source = makeTableSource(scene, settings, *traced, progress);
+  return [&, traced, source] {
+    return measureBeams(scene, rays, *source, sensor, settings.paths, settings.refineDepth, progress, stats);
+  };
+}
+
+// Through the technique as it draws.
+CausticsMeter techniqueMeter(gpu::Device& device, const Scene& scene, const Sensor& sensor,
+                             const TechniqueSettings& settings, Progress& progress, Stats& stats) {
+  const auto meter = std::make_shared<TechniqueMeter>(device, scene, sensor, settings, progress, stats);
+  return [meter] { return meter->read(); };
+}
+
 void runMeasure(const MeasureOptions& options) {
   checkOutput(options.output, options.scene, {".exr"});
   if (!options.stats.empty()) checkOutput(options.stats, options.scene);
@@ -43,25 +66,31 @@ void runMeasure(const MeasureOptions& options) {
   const Scene scene = loadScene(options.scene, options.time);
   const Sensor& sensor = sensorNamed(scene, options.sensor);
   const RayScene rays(scene);
-  const TracedSource traced(scene, rays);
-  std::unique_ptr<TransportSource> table;
-  if (settings.source == Source::table) table = makeTableSource(scene, settings, traced, progress);
-  const TransportSource& source = table ? *table : static_cast<const TransportSource&>(traced);
+  std::optional<gpu::Device> device;
+  CausticsMeter caustics;
+  if (settings.planes == 0 && settings.technique != "none") {
+    stats.device = "host";
+    caustics = beamsMeter(scene, rays, sensor, settings, progress, stats);
+  } else {
+    device.emplace(gpu::DeviceOptions{.device = options.device});
+    stats.device = device->info().name;
+    caustics = techniqueMeter(*device, scene, sensor, settings, progress, stats);
+  }
   stats.prepareMilliseconds = preparing.milliseconds();
 
-  SensorLayer direct, caustics;
+  SensorLayer causticsLayer;
   std::vector<double> times;
   for (uint32_t i = 0; i < options.repeat; ++i) {
     stats.counts.clear();
     const Stopwatch frame;
-    direct = measureDirect(scene, rays, sensor, progress);
-    caustics =
-        measureBeams(scene, rays, source, sensor, settings.paths, settings.refineDepth, progress, stats);
+    causticsLayer = caustics();
     times.push_back(frame.milliseconds());
   }
   stats.frameMilliseconds = median(times);
+  if (device) stats.memoryBytes = device->memoryBytes();
 
-  writeExr(options.output, sensorImage(scene, sensor, direct, caustics), imageAttributes(settings, "lux"));
+  const SensorLayer direct = measureDirect(scene, rays, sensor, progress);
+  writeExr(options.output, sensorImage(scene, sensor, direct, causticsLayer), imageAttributes(settings, "lux"));
   writeStats(options.stats, stats);
 }
 

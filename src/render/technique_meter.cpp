@@ -1,0 +1,93 @@
+#include "render/technique_meter.h"
+
+#include "gpu/command_list.h"
+#include "gpu/transfer.h"
+
+namespace nephroid {
+namespace {
+
+// Points looked up along each side of a texel, and averaged: an illumination texture may be much finer than the sensor.
+constexpr uint32_t kPointsAlongTexel = 4;  // at once
+constexpr uint32_t kPasses = 4;            // times, between them
+
+// The scene and a diffuse quad on the sensor: techniques light receivers.
+Scene withReceiver(Scene scene, const Sensor& sensor) {
+  Mesh quad;
+  quad.name = sensor.name;
+  quad.positions = {sensor.corner, sensor.corner + sensor.v, sensor.corner + sensor.v + sensor.u, sensor.corner + sensor.u};
+  quad.normals.assign(4, sensor.normal());
+  quad.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Object object;
+  object.name = sensor.name;
+  object.mesh = uint32_t(scene.meshes.size());
+  object.material = uint32_t(scene.materials.size());
+  scene.meshes.push_back(std::move(quad));
+  scene.materials.emplace_back();
+  scene.objects.push_back(std::move(object));
+  return scene;
+}
+
+gpu::Image pointImage(gpu::Device& device, const char* name, const Sensor& sensor) {
+  return gpu::createImage(device, name,
+                          {.width = sensor.resolution.x * kPointsAlongTexel, .height = sensor.resolution.y * kPointsAlongTexel});
+}
+
+std::vector<std::vector<std::byte>> bytesOf(const std::vector<vec4>& texels) {
+  const auto bytes = std::as_bytes(std::span(texels));
+  return {{bytes.begin(), bytes.end()}};
+}
+
+}  // namespace
+
+TechniqueMeter::TechniqueMeter(gpu::Device& deviceToUse, const Scene& sceneToRead, const Sensor& sensorToRead,
+                               const TechniqueSettings& settings, Progress& progress, Stats& stats)
+    : device(deviceToUse), sensor(sensorToRead), scene(withReceiver(sceneToRead, sensorToRead)), gpuScene(device, scene),
+      technique(makeTechnique({device, scene, settings, progress, stats})),
+      positions(pointImage(device, "sensor positions", sensor)), normals(pointImage(device, "sensor normals", sensor)),
+      caustics(pointImage(device, "sensor caustics", sensor)) {
+  uploadNormals();
+}
+
+void TechniqueMeter::uploadNormals() {
+  const std::vector<vec4> texels(std::size_t(normals.width()) * normals.height(), vec4(sensor.normal(), 0));
+  gpu::uploadImage(device, normals, bytesOf(texels));
+}
+
+void TechniqueMeter::uploadPoints(vec2 offset) {
+  const uint32_t width = positions.width(), height = positions.height();
+  std::vector<vec4> points(std::size_t(width) * height);
+  for (uint32_t y = 0; y < height; ++y)
+    for (uint32_t x = 0; x < width; ++x) {
+      const vec2 at = (vec2(float(x), float(y)) + offset) / vec2(float(width), float(height));
+      points[std::size_t(y) * width + x] = vec4(sensor.corner + at.x * sensor.u + at.y * sensor.v, 1);
+    }
+  gpu::uploadImage(device, positions, bytesOf(points));
+}
+
+void TechniqueMeter::addShaded(SensorLayer& layer) {
+  device.submitAndWait([&](gpu::CommandList& commands) {
+    commands.pass("clear", [&] { commands.clear(caustics, vec4(0)); });
+    technique->shade(commands, {&positions, &normals}, caustics);
+  });
+  const std::vector<vec4> points = gpu::download<vec4>(device, caustics);
+  for (uint32_t y = 0; y < caustics.height(); ++y)
+    for (uint32_t x = 0; x < caustics.width(); ++x)
+      layer[std::size_t(y / kPointsAlongTexel) * sensor.resolution.x + x / kPointsAlongTexel] +=
+          vec3(points[std::size_t(y) * caustics.width() + x]);
+}
+
+SensorLayer TechniqueMeter::read() {
+  gpuScene.place(scene);
+  technique->update(scene, gpuScene);
+  device.submitAndWait([&](gpu::CommandList& commands) { technique->record(commands, gpuScene); });
+  SensorLayer layer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
+  for (uint32_t pass = 0; pass < kPasses * kPasses; ++pass) {
+    uploadPoints((vec2(float(pass % kPasses), float(pass / kPasses)) + 0.5f) / float(kPasses));
+    addShaded(layer);
+  }
+  const float points = float(kPointsAlongTexel * kPasses);
+  for (vec3& lux : layer) lux /= points * points;
+  return layer;
+}
+
+}  // namespace nephroid
