@@ -35,23 +35,64 @@ SHARED_FUNCTION float clampedIntegral(float x) {
   return 0.5f * inside * inside + max(x - 1.0f, 0.0f);
 }
 
-// Integral over dy, along the edge a-b within the texel's row, of how far the edge lies right of the texel's left side (0 to 1).
-SHARED_FUNCTION float edgeCoverage(vec2 a, vec2 b, vec2 texel) {
-  float y0 = clamp(a.y - texel.y, 0.0f, 1.0f);
-  float y1 = clamp(b.y - texel.y, 0.0f, 1.0f);
-  float height = b.y - a.y;
-  float slope = height != 0.0f ? (b.x - a.x) / height : 0.0f;
-  float x0 = a.x - texel.x + (y0 - (a.y - texel.y)) * slope;
-  float x1 = a.x - texel.x + (y1 - (a.y - texel.y)) * slope;
+// What a triangle's sides do within one row of texels: x where each enters the row and where it leaves it, and how far it goes
+// down it (texels; negative when it goes up).
+struct TriangleRow {
+  vec3 ab;
+  vec3 bc;
+  vec3 ca;
+  float first;  // texels, the triangle's extent within the row
+  float last;
+};
+
+// x against y along the sides ab, bc and ca.
+SHARED_FUNCTION vec3 sideSlopes(vec2 a, vec2 b, vec2 c) {
+  vec3 width = vec3(b.x - a.x, c.x - b.x, a.x - c.x);
+  vec3 height = vec3(b.y - a.y, c.y - b.y, a.y - c.y);
+  return vec3(height.x != 0.0f ? width.x / height.x : 0.0f, height.y != 0.0f ? width.y / height.y : 0.0f,
+              height.z != 0.0f ? width.z / height.z : 0.0f);
+}
+
+SHARED_FUNCTION vec3 sideInRow(vec2 a, vec2 b, float slope, float row) {
+  float y = a.y - row;
+  float y0 = clamp(y, 0.0f, 1.0f);
+  float y1 = clamp(b.y - row, 0.0f, 1.0f);
+  return vec3(a.x + (y0 - y) * slope, a.x + (y1 - y) * slope, y1 - y0);
+}
+
+SHARED_FUNCTION void includeSide(vec3 side, INOUT(float) first, INOUT(float) last) {
+  if (side.z == 0.0f) return;
+  first = min(first, min(side.x, side.y));
+  last = max(last, max(side.x, side.y));
+}
+
+// `slopes` are those of sideSlopes. Where the triangle does not meet the row, `first` is greater than `last`.
+SHARED_FUNCTION TriangleRow triangleInRow(vec2 a, vec2 b, vec2 c, vec3 slopes, float row) {
+  TriangleRow cut;
+  cut.ab = sideInRow(a, b, slopes.x, row);
+  cut.bc = sideInRow(b, c, slopes.y, row);
+  cut.ca = sideInRow(c, a, slopes.z, row);
+  cut.first = 1e30f;
+  cut.last = -1e30f;
+  includeSide(cut.ab, cut.first, cut.last);
+  includeSide(cut.bc, cut.first, cut.last);
+  includeSide(cut.ca, cut.first, cut.last);
+  return cut;
+}
+
+// Integral over dy, along a side within the row, of how far it lies right of the column's left side (0 to 1).
+SHARED_FUNCTION float sideCoverage(vec3 side, float column) {
+  float x0 = side.x - column;
+  float x1 = side.y - column;
   float width = x1 - x0;
   float mean = abs(width) < 1e-2f ? clamp(0.5f * (x0 + x1), 0.0f, 1.0f)
                                   : (clampedIntegral(x1) - clampedIntegral(x0)) / width;
-  return mean * (y1 - y0);
+  return mean * side.z;
 }
 
-// Texels squared of the triangle that lie in the texel whose upper left corner is `texel`.
-SHARED_FUNCTION float triangleCoverage(vec2 a, vec2 b, vec2 c, vec2 texel) {
-  return abs(edgeCoverage(a, b, texel) + edgeCoverage(b, c, texel) + edgeCoverage(c, a, texel));
+// Texels squared of the triangle that lie in the row's texel from `column` to `column` + 1.
+SHARED_FUNCTION float triangleCoverage(TriangleRow row, float column) {
+  return abs(sideCoverage(row.ab, column) + sideCoverage(row.bc, column) + sideCoverage(row.ca, column));
 }
 
 // Moves a footprint's corners to where float has digits to share it out with: texel t of the grid becomes t - `base`. One smaller

@@ -11,7 +11,8 @@
 #include "shaders/deposit_comp.h"
 #include "shaders/receivers_frag.h"
 #include "shaders/receivers_vert.h"
-#include "shaders/shade_comp.h"
+#include "shaders/shade_frag.h"
+#include "shaders/whole_picture_vert.h"
 #include "techniques/illumination_textures/plan.h"
 #include "techniques/illumination_textures/shader_data.h"
 #include "techniques/sources.h"
@@ -21,10 +22,20 @@
 namespace nephroid {
 namespace {
 
+// As many as the fewest workgroups of one dispatch that Vulkan promises can hold, at 64 threads each.
+constexpr std::size_t kMostBeamsADispatch = 65535 * 64 / kThreadsOfBeam;
+
 // Light of one emitter through one caster, along one choice of reflections: it has a mean direction of its own.
 struct LitCaster {
   std::vector<Beam> beams;
+  std::size_t beamsOfOuterWindow = 0;  // the first so many; the inner window holds the others on all planes
   PlaneSet planes{};
+};
+
+// What the light's virtual camera sees.
+struct ReceiverView {
+  gpu::Image normals;  // as receiver_normal.glsl.h packs them
+  gpu::Image depths;   // a layer a window, 0 at nearestDepth and 1 at farthestDepth
 };
 
 // Whether all beams have the same colour, so that one channel and a tint tell all.
@@ -37,6 +48,29 @@ bool isOfOneColor(const std::vector<LitCaster>& lit) {
       if (std::max({difference.x, difference.y, difference.z}) > 1e-5f * dot(beam.flux, first)) return false;
     }
   return true;
+}
+
+// Whether all that the outer window's texture is asked for lies off this beam on this plane: the inner one answers there, down to
+// one and a half of the outer one's texels from its borders.
+bool isInsideInnerWindow(const Beam& beam, const PlaneSet& set, uint32_t plane) {
+  const PlaneGrid grid = planeGrid(set, plane, 0);
+  const float border = 1 + 2 * set.windows[0].texelsPerMetre / set.windows[1].texelsPerMetre;
+  for (int i = 0; i < 3; ++i) {
+    vec2 texel;
+    float distance;
+    if (!meetPlane(beam.position[i], beam.direction[i], grid, texel, distance)) return false;
+    if (std::min(texel.x, texel.y) <= border || std::max(texel.x, texel.y) >= float(set.textureSize) - border) return false;
+  }
+  return true;
+}
+
+// Corner rays are straight: what is inside on the first plane and on the last is so on those between.
+void putBeamsOfOuterWindowFirst(LitCaster& caster) {
+  const PlaneSet& set = caster.planes;
+  const auto inner = std::partition(caster.beams.begin(), caster.beams.end(), [&](const Beam& beam) {
+    return !isInsideInnerWindow(beam, set, 0) || !isInsideInnerWindow(beam, set, set.planes - 1);
+  });
+  caster.beamsOfOuterWindow = std::size_t(inner - caster.beams.begin());
 }
 
 template <class T>
@@ -58,6 +92,9 @@ class IlluminationTextures final : public Technique {
   std::vector<Beam> beamsOf(const Scene& scene, std::span<const BandQuery> bands, const BeamSettings& settings) const;
   void upload();
   void drawReceivers(gpu::CommandList& commands, GpuScene& gpuScene, uint32_t set);
+  void deposit(gpu::CommandList& commands, uint32_t set, uint32_t window, VkDeviceAddress ofBeams, VkDeviceAddress texture);
+  VkDeviceAddress normalsOf(std::size_t set, uint32_t window) const;
+  VkDeviceSize windowBytes() const { return VkDeviceSize(settings.textureSize) * settings.textureSize * sizeof(uint32_t); }
   std::size_t textureWords() const;
 
   gpu::Device& device;
@@ -76,13 +113,19 @@ class IlluminationTextures final : public Technique {
   // Of the frame being made.
   std::vector<LitCaster> lit;
   uint32_t channels = 3;
+  VkDeviceSize beamBytes = 0;
   gpu::Buffer beamUpload, beams, textures;
-  std::vector<gpu::Image> receiverViews;  // one for each lit caster: normals toward the light and depths, a layer a window
-  gpu::Image receiverDepth;
+  std::vector<ReceiverView> receiverViews;  // one for each lit caster
+  gpu::Buffer normals;                      // those of receiverViews, where threads read them one by one
 };
 
-gpu::Program computeProgram(gpu::Device& device, const char* name, std::span<const uint32_t> code, uint32_t channels) {
-  return gpu::createComputeProgram(device, name, code, {{0, channels}});
+gpu::Program depositProgram(gpu::Device& device, const char* name, uint32_t channels) {
+  return gpu::createComputeProgram(device, name, shaders::deposit_comp, {{0, channels}});
+}
+
+gpu::Program shadeProgram(gpu::Device& device, const char* name, uint32_t channels) {
+  return gpu::createRasterProgram(device, name, shaders::whole_picture_vert, shaders::shade_frag,
+                                  {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}}, {{0, channels}});
 }
 
 IlluminationTextures::IlluminationTextures(const TechniqueContext& context)
@@ -91,14 +134,9 @@ IlluminationTextures::IlluminationTextures(const TechniqueContext& context)
       source(table ? *table : static_cast<const TransportSource&>(traced)),
       receiversProgram(gpu::createRasterProgram(device, "receivers from the light", shaders::receivers_vert,
                                                 shaders::receivers_frag,
-                                                {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT}}, .depthFormat = VK_FORMAT_D32_SFLOAT})),
-      depositPrograms{computeProgram(device, "deposit", shaders::deposit_comp, 1),
-                      computeProgram(device, "deposit in color", shaders::deposit_comp, 3)},
-      shadePrograms{computeProgram(device, "caustics", shaders::shade_comp, 1),
-                    computeProgram(device, "caustics in color", shaders::shade_comp, 3)} {
-  const uint32_t side = settings.textureSize;
-  receiverDepth = gpu::createImage(device, "receivers' depth", {.format = VK_FORMAT_D32_SFLOAT, .width = side, .height = side});
-}
+                                                {.colors = {{VK_FORMAT_R32_UINT}}, .depthFormat = VK_FORMAT_D32_SFLOAT})),
+      depositPrograms{depositProgram(device, "deposit", 1), depositProgram(device, "deposit in color", 3)},
+      shadePrograms{shadeProgram(device, "caustics", 1), shadeProgram(device, "caustics in color", 3)} {}
 
 std::vector<Beam> IlluminationTextures::beamsOf(const Scene& scene, std::span<const BandQuery> bands,
                                                 const BeamSettings& beamSettings) const {
@@ -148,6 +186,7 @@ void IlluminationTextures::update(const Scene& scene, GpuScene&) {
         for (last = first; last < queries.size() && queries[last].query.reflections == queries[first].query.reflections;) ++last;
         LitCaster caster = light(now, std::span(queries).subspan(first, last - first), boxes);
         if (caster.planes.planes == 0) continue;
+        putBeamsOfOuterWindowFirst(caster);
         beamCount += caster.beams.size();
         lit.push_back(std::move(caster));
       }
@@ -170,63 +209,79 @@ void IlluminationTextures::upload() {
   ensure<Beam>(device, beamUpload, "beams to upload", beamCount, gpu::MemoryKind::upload);
   ensure<Beam>(device, beams, "beams", beamCount, gpu::MemoryKind::device);
   ensure<uint32_t>(device, textures, "illumination textures", textureWords(), gpu::MemoryKind::device);
-  std::size_t first = 0;
+  beamBytes = 0;
   for (const LitCaster& caster : lit) {
-    beamUpload.write(caster.beams, first * sizeof(Beam));
-    first += caster.beams.size();
+    beamUpload.write(caster.beams, beamBytes);
+    beamBytes += caster.beams.size() * sizeof(Beam);
   }
   const uint32_t side = settings.textureSize;
-  while (receiverViews.size() < lit.size())
-    receiverViews.push_back(
-        gpu::createImage(device, "receivers from the light", {.width = side, .height = side, .layers = kWindows}));
+  ensure<uint32_t>(device, normals, "receivers' normals", lit.size() * kWindows * side * side, gpu::MemoryKind::device);
+  while (receiverViews.size() < lit.size()) {
+    gpu::ImageOptions options{.format = VK_FORMAT_R32_UINT, .width = side, .height = side, .layers = kWindows};
+    gpu::Image normal = gpu::createImage(device, "receivers' normals", options);
+    options.format = VK_FORMAT_D32_SFLOAT;
+    receiverViews.push_back({std::move(normal), gpu::createImage(device, "receivers' depths", options)});
+  }
 }
 
 void IlluminationTextures::drawReceivers(gpu::CommandList& commands, GpuScene& gpuScene, uint32_t set) {
-  // Where the virtual camera sees nothing, light counts as on a surface across its axis, at any depth.
-  const vec4 nothing(-lit[set].planes.axisW, lit[set].planes.farthestDepth * 2 + 1e6f);
-  for (uint32_t window = 0; window < kWindows; ++window) {
-    commands.render({.colors = {{&receiverViews[set], window, nothing}}, .depth = gpu::DepthAttachment{&receiverDepth, 0, 1.0f}}, [&] {
+  const ReceiverView& view = receiverViews[set];
+  for (uint32_t window = 0; window < kWindows; ++window)
+    commands.render({.colors = {{&view.normals, window, vec4(0)}}, .depth = gpu::DepthAttachment{&view.depths, window, 1.0f}}, [&] {
       for (const SceneDraw& draw : gpuScene.draws())
         if (draw.type == MaterialType::diffuse)
           commands.drawIndexed(receiversProgram, gpuScene.indices(), draw.range, 1,
                                ViewConstants{lit[set].planes, gpuScene.vertices(), gpuScene.objects(), draw.object, window});
     });
-    commands.barrier();
+}
+
+// Device address of the receivers' normals in a window.
+VkDeviceAddress IlluminationTextures::normalsOf(std::size_t set, uint32_t window) const {
+  return normals.address() + (set * kWindows + window) * windowBytes();
+}
+
+void IlluminationTextures::deposit(gpu::CommandList& commands, uint32_t set, uint32_t window, VkDeviceAddress ofBeams,
+                                   VkDeviceAddress texture) {
+  const std::size_t all = window == 0 ? lit[set].beams.size() : lit[set].beamsOfOuterWindow;
+  for (std::size_t first = 0; first < all; first += kMostBeamsADispatch) {
+    const auto count = uint32_t(std::min(all - first, kMostBeamsADispatch));
+    commands.dispatch(depositPrograms[channels == 3], {count * kThreadsOfBeam, 1, 1},
+                      DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), normalsOf(set, window), texture, count, window});
   }
 }
 
 void IlluminationTextures::record(gpu::CommandList& commands, GpuScene& gpuScene) {
   if (lit.empty()) return;
   commands.pass("receivers from the light", [&] {
-    commands.copy(beamUpload, beams, beamUpload.size() < beams.size() ? beamUpload.size() : beams.size());
+    commands.copy(beamUpload, beams, beamBytes);
     commands.fill(textures, 0);
     for (uint32_t set = 0; set < lit.size(); ++set) drawReceivers(commands, gpuScene, set);
+    commands.barrier();
+    for (uint32_t set = 0; set < lit.size(); ++set)
+      for (uint32_t window = 0; window < kWindows; ++window)
+        commands.copy(receiverViews[set].normals, window, normals, (set * kWindows + window) * windowBytes());
   });
   commands.pass("illumination textures", [&] {
-    uint32_t firstBeam = 0;
+    VkDeviceAddress ofBeams = beams.address();
     VkDeviceAddress texture = textures.address();
     for (uint32_t set = 0; set < lit.size(); ++set) {
-      const PlaneSet& planes = lit[set].planes;
-      const auto count = uint32_t(lit[set].beams.size());
-      commands.dispatch(depositPrograms[channels == 3], {count, planes.planes * kWindows, 1},
-                        DepositConstants{planes, beams.address() + firstBeam * sizeof(Beam), texture, count},
-                        {receiverViews[set]});
-      firstBeam += count;
-      texture += textureStart(planes, 0, kWindows, channels) * sizeof(uint32_t);
+      for (uint32_t window = 0; window < kWindows; ++window) deposit(commands, set, window, ofBeams, texture);
+      ofBeams += lit[set].beams.size() * sizeof(Beam);
+      texture += textureStart(lit[set].planes, 0, kWindows, channels) * sizeof(uint32_t);
     }
   });
 }
 
 void IlluminationTextures::shade(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& causticsLux) {
   commands.pass("caustics", [&] {
-    VkDeviceAddress texture = textures.address();
-    for (uint32_t set = 0; set < lit.size(); ++set) {
-      commands.barrier();
-      commands.dispatch(shadePrograms[channels == 3], {causticsLux.width(), causticsLux.height(), 1},
-                        ShadeConstants{lit[set].planes, texture},
-                        {*points.position, *points.normal, receiverViews[set], causticsLux});
-      texture += textureStart(lit[set].planes, 0, kWindows, channels) * sizeof(uint32_t);
-    }
+    commands.render({.colors = {{&causticsLux, 0, std::nullopt}}}, [&] {
+      VkDeviceAddress texture = textures.address();
+      for (uint32_t set = 0; set < lit.size(); ++set) {
+        commands.draw(shadePrograms[channels == 3], 3, 1, ShadeConstants{lit[set].planes, texture},
+                      {*points.position, *points.normal, receiverViews[set].depths});
+        texture += textureStart(lit[set].planes, 0, kWindows, channels) * sizeof(uint32_t);
+      }
+    });
   });
 }
 

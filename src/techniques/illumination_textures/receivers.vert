@@ -5,7 +5,6 @@
 
 layout(push_constant, scalar) uniform Constants { ViewConstants constants; };
 layout(location = 0) out vec3 normal;
-layout(location = 1) out float depth;
 
 void main() {
   const SceneVertex vertex = constants.vertices.vertex[gl_VertexIndex];
@@ -13,7 +12,7 @@ void main() {
   const PlaneSet set = constants.set;
   const vec3 position = worldPoint(object, vertex.position);
   normal = worldVector(object, vertex.normal);
-  depth = dot(position, set.axisW);
+  const float depth = dot(position, set.axisW);
   const vec2 place = windowTexel(set, constants.window, position) / float(set.textureSize);
   gl_Position = vec4(2 * place - 1, (depth - set.nearestDepth) / (set.farthestDepth - set.nearestDepth), 1);
 }

@@ -6,12 +6,11 @@
 #include "techniques/illumination_textures/shader_data.h"
 
 layout(constant_id = 0) const uint kChannels = 3;
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Constants { ShadeConstants constants; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
-layout(set = 0, binding = 2) uniform texture2DArray receivers;
-layout(set = 0, binding = 3, rgba32f) uniform image2D causticsLux;
+layout(set = 0, binding = 2) uniform texture2DArray seenDepths;  // by the virtual camera, a layer a window
+layout(location = 0) out vec4 causticsLux;  // added to that of other sets
 
 // Units on the plane at a texel of the window.
 vec3 unitsAt(uint firstWord, uint textureSize, ivec2 texel) {
@@ -22,8 +21,8 @@ vec3 unitsAt(uint firstWord, uint textureSize, ivec2 texel) {
 }
 
 void main() {
-  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, imageSize(causticsLux)))) return;
+  causticsLux = vec4(0);
+  const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const vec4 point = imageLoad(receiverPosition, pixel);
   if (point.w == 0) return;
   const PlaneSet set = constants.set;
@@ -55,21 +54,24 @@ void main() {
   }
   if (most == vec3(0)) return;
 
-  // A texel's own slope, and half a texel of its neighbour's, may part a point from what the virtual camera saw.
+  // The side away from the light, at a place where the virtual camera sees the other.
   const vec3 normal = imageLoad(receiverNormal, pixel).xyz;
-  const float cosine = max(abs(dot(normal, set.axisW)), 0.05);
-  const float tolerance = 2.0 * sqrt(1 - cosine * cosine) / cosine / set.windows[window].texelsPerMetre +
-                          1e-4 * (set.farthestDepth - set.nearestDepth);
+  const float cosine = -dot(normal, set.axisW);
+  if (cosine <= 0) return;
+  // A texel's own slope, and half a texel of its neighbour's, may part a point from what the virtual camera saw.
+  const float slope = sqrt(max(1 - cosine * cosine, 0)) / max(cosine, 0.05);
+  const float depthRange = set.farthestDepth - set.nearestDepth;
+  const float tolerance = 2.0 * slope / set.windows[window].texelsPerMetre + 1e-4 * depthRange;
+  const float nearestSeen = (depth - tolerance - set.nearestDepth) / depthRange;
   const vec2 part = place - vec2(corner);
   vec3 sum = vec3(0);
   for (int i = 0; i < 4; ++i) {
     const ivec2 offset = ivec2(i & 1, i >> 1);
-    const vec4 seen = texelFetch(receivers, ivec3(corner + offset, window), 0);
-    if (depth > seen.w + tolerance || dot(normal, seen.xyz) <= 0) continue;
+    const float seen = texelFetch(seenDepths, ivec3(corner + offset, window), 0).r;  // 1 where it sees nothing
+    if (seen < min(nearestSeen, 1)) continue;
     const vec2 weights = mix(1 - part, part, vec2(offset));
     sum += weights.x * weights.y * units[i];
   }
   const float texels = set.windows[window].texelsPerMetre;
-  const vec3 lux = sum * set.luxMetresSquaredPerUnit * (texels * texels);
-  imageStore(causticsLux, pixel, imageLoad(causticsLux, pixel) + vec4(lux, 0));
+  causticsLux = vec4(sum * set.luxMetresSquaredPerUnit * (texels * texels), 0);
 }
