@@ -56,6 +56,7 @@ std::vector<ImageAttribute> imageAttributes(const TechniqueSettings& settings, c
           {"technique", settings.technique},
           {"source", std::string(nameOf(settings.source))},
           {"paths", std::string(nameOf(settings.paths))},
+          {"interpolation", std::string(nameOf(settings.interpolation))},
           {"unit", unit}};
 }
 
@@ -140,6 +141,8 @@ void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorK
             "Where the rays that leave a caster come from: a light transport table, or traced now");
   addChoice(command, "--paths", settings.paths, kPathsNames,
             "Light followed by refraction alone, or by reflection outside and inside as well");
+  addChoice(command, "--interpolation", settings.interpolation, kInterpolationNames,
+            "Virtual planes that bend onto the receivers, or flat ones that receivers blend");
   command
       .add_option("--baked", settings.baked,
                   "The light transport tables that `nephroid bake` wrote for this scene")

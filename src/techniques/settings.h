@@ -14,14 +14,20 @@ namespace nephroid {
 
 enum class Source { table, traced };
 
+// How a receiver between virtual planes is lit. surface: planes bend onto the receivers, so that light is left where it arrives.
+// blend: from the flat planes before and behind it, as Iwasaki 2005b does; converges as planes are added.
+enum class Interpolation { surface, blend };
+
 // In the order of the enumerators.
 inline constexpr std::array<const char*, 2> kSourceNames{"table", "traced"};
 inline constexpr std::array<const char*, 2> kPathsNames{"transmission", "all"};
+inline constexpr std::array<const char*, 2> kInterpolationNames{"surface", "blend"};
 
 struct TechniqueSettings {
   std::string technique = "illumination-textures";  // a name of the registry
   Source source = Source::table;
   Paths paths = Paths::transmission;
+  Interpolation interpolation = Interpolation::surface;
   uint32_t planes = 4;          // virtual planes; 0: a single one, in the sensor's own plane
   uint32_t textureSize = 512;   // texels along a side of a virtual plane
   uint32_t directions = 129;    // per vertex of a light transport table
@@ -34,6 +40,9 @@ inline const char* nameOf(Source source) {
 }
 inline const char* nameOf(Paths paths) {
   return kPathsNames[static_cast<std::size_t>(paths)];
+}
+inline const char* nameOf(Interpolation interpolation) {
+  return kInterpolationNames[static_cast<std::size_t>(interpolation)];
 }
 
 // A number among the settings.

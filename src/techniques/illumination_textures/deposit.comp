@@ -1,17 +1,23 @@
-// Leaves every beam's flux on every virtual plane: eq. 3 of Iwasaki 2005b, with the flux in place of intensity times area ratio,
-// so that nothing is lost or made where a beam is narrower than a texel.
+// Leaves every beam's flux on the virtual planes, so that nothing is lost or made where a beam is narrower than a texel.
+//
+// Flat planes are those of Iwasaki 2005b (eq. 3, with the flux in place of intensity times area ratio). A plane that follows the
+// receivers is bent, within half the distance to its neighbours, onto what the virtual camera sees: light is then left where it
+// arrives, and nothing is smeared between planes.
 //
 // The threads that share a beam stand in a block that moves over its footprint, a texel a thread: whatever their triangles' sizes
 // and shapes, neighbouring threads go the same way.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 #include "techniques/illumination_textures/shader_data.h"
 
 #include "techniques/illumination_textures/receiver_normal.glsl.h"
 
 layout(constant_id = 0) const uint kChannels = 3;
+layout(constant_id = 1) const uint kFollowsReceivers = 1;
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Constants { DepositConstants constants; };
+layout(set = 0, binding = 0) uniform texture2DArray seenDepths;  // by the virtual camera, a layer a window
 
 const uint kBlockWidth = 4;
 const uint kBlockHeight = kThreadsOfBeam / kBlockWidth;
@@ -21,15 +27,19 @@ uint firstTexel;    // of the plane in the textures, in texels
 vec2 slopes;        // m along axisU and axisV that the beam goes for each metre along axisW
 vec3 unitsOfFlux;   // of the beam, by channel
 
-// Puts a part of the beam's flux on a texel, as the illuminance of what the virtual camera sees there.
+// Puts a part of the beam's flux on a texel of a flat plane, as the illuminance of what the virtual camera sees there; and as it
+// is on a plane that follows the receivers.
 void add(vec2 place, float part) {
   const uint side = constants.set.textureSize;
   if (any(lessThan(place, vec2(0))) || any(greaterThanEqual(place, vec2(side)))) return;
   const uint texel = uint(place.y) * side + uint(place.x);
-  const vec3 normal = unpackedNormal(constants.normals.word[texel]);
-  // The beam's angle with the surface over that with the plane, as cosines.
-  const float cosines = max(normal.z - dot(slopes, normal.xy), 0) * inversesqrt(dot(normal, normal));
-  const vec3 units = unitsOfFlux * (part * cosines) + 0.5;
+  vec3 units = unitsOfFlux * part;
+  if (kFollowsReceivers == 0) {
+    const vec3 normal = unpackedNormal(constants.normals.word[texel]);
+    // The beam's angle with the surface over that with the plane, as cosines.
+    units *= max(normal.z - dot(slopes, normal.xy), 0) * inversesqrt(dot(normal, normal));
+  }
+  units += 0.5;
   const uint word = (firstTexel + texel) * kChannels;
   for (uint c = 0; c < kChannels; ++c)
     if (units[c] >= 1.0) atomicAdd(constants.textures.units[word + c], uint(units[c]));
@@ -70,15 +80,59 @@ void addTriangle(vec2 a, vec2 b, vec2 c) {
   }
 }
 
-void addBeam(Beam beam, PlaneGrid grid) {
-  vec2 texel[3];
-  bvec3 meets;
-  float along;
-  for (int i = 0; i < 3; ++i) meets[i] = meetPlane(beam.position[i], beam.direction[i], grid, texel[i], along);
+// A corner ray in the virtual camera's frame: texels across, metres along axisW.
+struct Line {
+  vec2 start;
+  float startDepth;
+  vec2 slope;  // texels a metre
+  bool meets;  // planes beyond its start
+};
+
+Line lineOf(vec3 position, vec3 direction) {
+  const PlaneSet set = constants.set;
+  const float approach = dot(direction, set.axisW);
+  Line line;
+  line.start = windowTexel(set, constants.window, position);
+  line.startDepth = dot(position, set.axisW);
+  line.meets = approach > 1e-4;
+  line.slope = vec2(dot(direction, set.axisU), dot(direction, set.axisV)) *
+               (set.windows[constants.window].texelsPerMetre / max(approach, 1e-4));
+  return line;
+}
+
+vec2 placeAt(Line line, float depth) { return line.start + (depth - line.startDepth) * line.slope; }
+
+// Depth at which the line meets what the virtual camera sees: again and again the tangent plane of what is seen next to where
+// the line is by now. One step is exact on a flat receiver.
+float receiverDepth(Line line) {
+  const PlaneSet set = constants.set;
+  const float texelsPerMetre = set.windows[constants.window].texelsPerMetre;
+  const float range = set.farthestDepth - set.nearestDepth;
+  float depth = max(set.firstDepth + 0.5 * float(set.planes - 1) * set.depthStep, line.startDepth);
+  for (int step = 0; step < 3; ++step) {
+    const vec2 place = placeAt(line, depth);
+    const vec2 texel = clamp(floor(place), vec2(0), vec2(set.textureSize - 1));
+    const float seen = texelFetch(seenDepths, ivec3(texel, constants.window), 0).r;
+    if (seen >= 1) break;
+    const float seenDepth = set.nearestDepth + seen * range;
+    const vec3 normal = unpackedNormal(constants.normals.word[uint(texel.y) * set.textureSize + uint(texel.x)]);
+    // Where the line stands over the tangent plane, and how fast it comes nearer.
+    const float ahead = seenDepth * normal.z + dot((place - texel - 0.5) / texelsPerMetre, normal.xy) - depth * normal.z;
+    const float approach = normal.z - dot(line.slope / texelsPerMetre, normal.xy);
+    depth = approach > 0.1 * normal.z ? depth + ahead / approach : seenDepth;
+    depth = clamp(depth, max(set.nearestDepth, line.startDepth), set.farthestDepth);
+  }
+  return depth;
+}
+
+void addFootprint(Line lines[3], vec3 depths) {
+  const bvec3 meets = bvec3(lines[0].meets && depths.x >= lines[0].startDepth, lines[1].meets && depths.y >= lines[1].startDepth,
+                            lines[2].meets && depths.z >= lines[2].startDepth);
+  const vec2 a = placeAt(lines[0], depths.x), b = placeAt(lines[1], depths.y), c = placeAt(lines[2], depths.z);
   if (all(meets)) {
-    addTriangle(texel[0], texel[1], texel[2]);
+    addTriangle(a, b, c);
   } else if (thread == 0 ? meets.x : thread == 1 ? meets.y : thread == 2 && meets.z) {
-    add(floor(thread == 0 ? texel[0] : thread == 1 ? texel[1] : texel[2]), 1.0 / 3.0);
+    add(floor(thread == 0 ? a : thread == 1 ? b : c), 1.0 / 3.0);
   }
 }
 
@@ -86,14 +140,33 @@ void main() {
   const uint index = gl_GlobalInvocationID.x / kThreadsOfBeam;
   if (index >= constants.beamCount) return;
   thread = gl_GlobalInvocationID.x % kThreadsOfBeam;
+  const PlaneSet set = constants.set;
   const Beam beam = constants.beams.beam[index];
   const vec3 direction = beam.direction[0] + beam.direction[1] + beam.direction[2];
-  const float approach = dot(direction, constants.set.axisW);
+  const float approach = dot(direction, set.axisW);
   if (approach < kLeastApproach * length(direction)) return;
-  slopes = vec2(dot(direction, constants.set.axisU), dot(direction, constants.set.axisV)) / approach;
-  unitsOfFlux = beam.flux / constants.set.luxMetresSquaredPerUnit;
-  for (uint plane = 0; plane < constants.set.planes; ++plane) {
-    firstTexel = textureStart(constants.set, plane, constants.window, 1);
-    addBeam(beam, planeGrid(constants.set, plane, constants.window));
+  slopes = vec2(dot(direction, set.axisU), dot(direction, set.axisV)) / approach;
+  unitsOfFlux = beam.flux / set.luxMetresSquaredPerUnit;
+
+  Line lines[3];
+  vec3 arrivals = vec3(0);  // depths on the receivers
+  for (int i = 0; i < 3; ++i) {
+    lines[i] = lineOf(beam.position[i], beam.direction[i]);
+    if (kFollowsReceivers != 0) arrivals[i] = receiverDepth(lines[i]);
+  }
+  // Neighbouring texels may be asked for that lie a little past the border between two planes.
+  const float reach = 0.5 * set.depthStep + 3 / set.windows[constants.window].texelsPerMetre;
+  for (uint plane = 0; plane < set.planes; ++plane) {
+    const float depth = set.firstDepth + float(plane) * set.depthStep;
+    firstTexel = textureStart(set, plane, constants.window, 1);
+    if (kFollowsReceivers == 0) {
+      addFootprint(lines, vec3(depth));
+      continue;
+    }
+    // The first and the last plane have all that lies before and beyond.
+    const float low = plane == 0 ? set.nearestDepth : depth - reach;
+    const float high = plane == set.planes - 1 ? set.farthestDepth : depth + reach;
+    if (all(lessThan(arrivals, vec3(low))) || all(greaterThan(arrivals, vec3(high)))) continue;
+    addFootprint(lines, clamp(arrivals, low, high));
   }
 }

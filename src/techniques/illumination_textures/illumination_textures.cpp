@@ -96,6 +96,7 @@ class IlluminationTextures final : public Technique {
   VkDeviceAddress normalsOf(std::size_t set, uint32_t window) const;
   VkDeviceSize windowBytes() const { return VkDeviceSize(settings.textureSize) * settings.textureSize * sizeof(uint32_t); }
   std::size_t textureWords() const;
+  uint32_t followsReceivers() const { return settings.interpolation == Interpolation::surface; }
 
   gpu::Device& device;
   const TechniqueSettings settings;
@@ -119,13 +120,13 @@ class IlluminationTextures final : public Technique {
   gpu::Buffer normals;                      // those of receiverViews, where threads read them one by one
 };
 
-gpu::Program depositProgram(gpu::Device& device, const char* name, uint32_t channels) {
-  return gpu::createComputeProgram(device, name, shaders::deposit_comp, {{0, channels}});
+gpu::Program depositProgram(gpu::Device& device, const char* name, uint32_t channels, uint32_t followsReceivers) {
+  return gpu::createComputeProgram(device, name, shaders::deposit_comp, {{0, channels}, {1, followsReceivers}});
 }
 
-gpu::Program shadeProgram(gpu::Device& device, const char* name, uint32_t channels) {
+gpu::Program shadeProgram(gpu::Device& device, const char* name, uint32_t channels, uint32_t followsReceivers) {
   return gpu::createRasterProgram(device, name, shaders::whole_picture_vert, shaders::shade_frag,
-                                  {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}}, {{0, channels}});
+                                  {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}}, {{0, channels}, {1, followsReceivers}});
 }
 
 IlluminationTextures::IlluminationTextures(const TechniqueContext& context)
@@ -135,8 +136,10 @@ IlluminationTextures::IlluminationTextures(const TechniqueContext& context)
       receiversProgram(gpu::createRasterProgram(device, "receivers from the light", shaders::receivers_vert,
                                                 shaders::receivers_frag,
                                                 {.colors = {{VK_FORMAT_R32_UINT}}, .depthFormat = VK_FORMAT_D32_SFLOAT})),
-      depositPrograms{depositProgram(device, "deposit", 1), depositProgram(device, "deposit in color", 3)},
-      shadePrograms{shadeProgram(device, "caustics", 1), shadeProgram(device, "caustics in color", 3)} {}
+      depositPrograms{depositProgram(device, "deposit", 1, followsReceivers()),
+                      depositProgram(device, "deposit in color", 3, followsReceivers())},
+      shadePrograms{shadeProgram(device, "caustics", 1, followsReceivers()),
+                    shadeProgram(device, "caustics in color", 3, followsReceivers())} {}
 
 std::vector<Beam> IlluminationTextures::beamsOf(const Scene& scene, std::span<const BandQuery> bands,
                                                 const BeamSettings& beamSettings) const {
@@ -246,7 +249,8 @@ void IlluminationTextures::deposit(gpu::CommandList& commands, uint32_t set, uin
   for (std::size_t first = 0; first < all; first += kMostBeamsADispatch) {
     const auto count = uint32_t(std::min(all - first, kMostBeamsADispatch));
     commands.dispatch(depositPrograms[channels == 3], {count * kThreadsOfBeam, 1, 1},
-                      DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), normalsOf(set, window), texture, count, window});
+                      DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), normalsOf(set, window), texture, count, window},
+                      {receiverViews[set].depths});
   }
 }
 

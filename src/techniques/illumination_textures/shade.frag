@@ -1,11 +1,12 @@
-// Adds the light of one set of planes to the receiver points: blended from the two planes around each point, where the virtual
-// camera sees it (Iwasaki 2005b, 4.3).
+// Adds the light of one set of planes to the receiver points where the virtual camera sees them: blended from the two planes
+// around each point (Iwasaki 2005b, 4.3), or from the nearer one where planes follow the receivers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "techniques/illumination_textures/shader_data.h"
 
 layout(constant_id = 0) const uint kChannels = 3;
+layout(constant_id = 1) const uint kFollowsReceivers = 1;
 layout(push_constant, scalar) uniform Constants { ShadeConstants constants; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
@@ -37,7 +38,8 @@ void main() {
     place = clamp(place, vec2(0), vec2(last - 1e-3));
   }
   const float depth = dot(point.xyz, set.axisW);
-  const float between = set.depthStep > 0 ? clamp((depth - set.firstDepth) / set.depthStep, 0, float(set.planes - 1)) : 0;
+  float between = set.depthStep > 0 ? clamp((depth - set.firstDepth) / set.depthStep, 0, float(set.planes - 1)) : 0;
+  if (kFollowsReceivers != 0) between = floor(between + 0.5);
   const uint nearer = min(uint(between), set.planes - 1);
   const uint farther = min(nearer + 1, set.planes - 1);
   const uint nearerStart = textureStart(set, nearer, window, kChannels);
@@ -48,8 +50,9 @@ void main() {
   vec3 most = vec3(0);
   for (int i = 0; i < 4; ++i) {
     const ivec2 texel = corner + ivec2(i & 1, i >> 1);
-    units[i] = mix(unitsAt(nearerStart, set.textureSize, texel), unitsAt(fartherStart, set.textureSize, texel),
-                   between - float(nearer));
+    units[i] = unitsAt(nearerStart, set.textureSize, texel);
+    if (kFollowsReceivers == 0)
+      units[i] = mix(units[i], unitsAt(fartherStart, set.textureSize, texel), between - float(nearer));
     most = max(most, units[i]);
   }
   if (most == vec3(0)) return;
@@ -73,5 +76,7 @@ void main() {
     sum += weights.x * weights.y * units[i];
   }
   const float texels = set.windows[window].texelsPerMetre;
+  // What follows the receivers was left by flux; a texel's square metres on the surface are those across the axis over the cosine.
+  if (kFollowsReceivers != 0) sum *= cosine;
   causticsLux = vec4(sum * set.luxMetresSquaredPerUnit * (texels * texels), 0);
 }
