@@ -19,9 +19,10 @@ constexpr std::size_t kBlock = 64;  // triangles whose beams one task makes
 constexpr float kInset = 1e-3f;
 
 struct Corner {
-  vec3 weights;   // barycentric, in the mesh's triangle
-  vec3 position;  // m, on the surface
-  OutgoingRay ray;
+  vec3 weights{0};            // barycentric, in the mesh's triangle
+  vec3 position{0};           // m, on the surface
+  uint32_t vertex = kNone;    // of the mesh; none where a triangle was cut
+  OutgoingRay ray{};
 };
 using Triangle = std::array<Corner, 3>;
 
@@ -52,12 +53,30 @@ float solidAngle(vec3 a, vec3 b, vec3 c) {
   return float(-2 * std::atan2(glm::dot(p, glm::cross(q, r)), denominator));
 }
 
+// The rays at the mesh's vertices.
+struct VertexRays {
+  const Mesh& mesh;
+  const Placement& placement;
+  std::vector<OutgoingRay> rays;
+  std::vector<uint32_t> steadyTriangles;  // for each vertex a triangle about it whose rays all go one way, if there is one
+
+  void findSteadyTriangles() {
+    steadyTriangles.assign(rays.size(), kNone);
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const uvec3& corners = mesh.triangles[t];
+      const OutgoingRay &a = rays[corners.x], &b = rays[corners.y], &c = rays[corners.z];
+      if ((a.flags | b.flags | c.flags) != 0 || a.signature != b.signature || a.signature != c.signature) continue;
+      for (int i = 0; i < 3; ++i) steadyTriangles[corners[i]] = t;
+    }
+  }
+};
+
 // Makes the beams of one triangle of the mesh.
 class Builder {
  public:
   Builder(const TransportSource& sourceOf, const TransportQuery& queryOf, vec3 color, const BeamSettings& settingsOf,
-          const Surface& surfaceOf)
-      : source(sourceOf), query(queryOf), bandColor(color), settings(settingsOf), surface(surfaceOf),
+          const Surface& surfaceOf, const VertexRays& verticesOf)
+      : source(sourceOf), query(queryOf), bandColor(color), settings(settingsOf), surface(surfaceOf), vertices(verticesOf),
         facing(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f) {}
 
   void add(const Triangle& triangle, uint32_t forcedCuts, BeamSet& set) const {
@@ -162,19 +181,48 @@ class Builder {
       set.beams.push_back(beam);
       return;
     }
-    // Each corner speaks for the third of the triangle nearest to it.
     ++set.split;
-    for (const Corner& corner : t) {
-      if (!arrives(corner.ray)) continue;
+    for (int i = 0; i < 3; ++i)
+      if (arrives(t[i].ray)) emitThird(t, i, flux * t[i].ray.transmittance / 3.0f, set);
+  }
+
+  // The part of a triangle nearest to one of its corners goes the corner's way.
+  void emitThird(const Triangle& t, int corner, vec3 flux, BeamSet& set) const {
+    const vec3 own = t[corner].weights, next = t[(corner + 1) % 3].weights, last = t[(corner + 2) % 3].weights;
+    const std::array<vec3, 4> outline{own, 0.5f * (own + next), (own + next + last) / 3.0f, 0.5f * (own + last)};
+    for (const auto& part : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
       Beam beam{};
       for (int i = 0; i < 3; ++i) {
-        beam.position[i] = corner.ray.position;
-        beam.direction[i] = corner.ray.direction;
+        const OutgoingRay ray = rayNear(t[corner], surface.positions * outline[part[i]]);
+        beam.position[i] = ray.position;
+        beam.direction[i] = ray.direction;
       }
-      beam.flux = flux * corner.ray.transmittance / 3.0f;
-      beam.reach = corner.ray.reach;
+      beam.flux = 0.5f * flux;
+      beam.reach = t[corner].ray.reach;
       set.beams.push_back(beam);
     }
+  }
+
+  // The ray at a point next to a corner whose way it goes: as a steady triangle of the mesh at the corner continues, or else
+  // parallel to the corner's own, so that light is as dense as it came in, and no point glares.
+  OutgoingRay rayNear(const Corner& corner, vec3 point) const {
+    OutgoingRay ray = corner.ray;
+    const uint32_t steady = corner.vertex == kNone ? kNone : vertices.steadyTriangles[corner.vertex];
+    if (steady == kNone) {
+      ray.position += point - corner.position;
+      return ray;
+    }
+    const uvec3 at = vertices.mesh.triangles[steady];
+    mat3 positions, origins, directions;
+    for (int i = 0; i < 3; ++i) {
+      positions[i] = vertices.placement.point(vertices.mesh.positions[at[i]]);
+      origins[i] = vertices.rays[at[i]].position;
+      directions[i] = vertices.rays[at[i]].direction;
+    }
+    const vec3 weights = barycentricOf(point, positions);
+    ray.position = origins * weights;
+    ray.direction = normalize(directions * weights);
+    return ray;
   }
 
   const TransportSource& source;
@@ -182,6 +230,7 @@ class Builder {
   const vec3 bandColor;
   const BeamSettings& settings;
   const Surface& surface;
+  const VertexRays& vertices;
   const float facing;  // -1 where the light stands inside the caster and meets its triangles from behind
 };
 
@@ -225,8 +274,9 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
                    const BeamSettings& settings) {
   const Object& object = scene.objects[query.object];
   const Mesh& mesh = scene.meshOf(object);
-  std::vector<OutgoingRay> rays(mesh.positions.size());
-  source.vertexRays(query, rays);
+  VertexRays vertices{mesh, object.placement, std::vector<OutgoingRay>(mesh.positions.size()), {}};
+  source.vertexRays(query, vertices.rays);
+  vertices.findSteadyTriangles();
 
   const float extent = extentOf(mesh);
   const std::size_t blocks = (mesh.triangles.size() + kBlock - 1) / kBlock;
@@ -236,8 +286,11 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
     for (std::size_t t = block * kBlock; t < end; ++t) {
       const Surface surface = surfaceOf(object, mesh, mesh.triangles[t]);
       Triangle triangle;
-      for (int i = 0; i < 3; ++i) triangle[i] = {mat3(1)[i], surface.positions[i], rays[mesh.triangles[t][i]]};
-      Builder(source, query, bandColor, settings, surface)
+      for (int i = 0; i < 3; ++i) {
+        const uint32_t vertex = mesh.triangles[t][i];
+        triangle[i] = {mat3(1)[i], surface.positions[i], vertex, vertices.rays[vertex]};
+      }
+      Builder(source, query, bandColor, settings, surface, vertices)
           .add(triangle, forcedCutsFor(mesh, mesh.triangles[t], extent), parts[block]);
     }
   });
