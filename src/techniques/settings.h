@@ -32,7 +32,7 @@ struct TechniqueSettings {
   uint32_t textureSize = 512;   // texels along a side of a virtual plane
   uint32_t directions = 129;    // per vertex of a light transport table
   std::filesystem::path baked;  // the light transport tables to use; empty: found in the cache, or made
-  uint32_t refineDepth = 3;     // times a beam may be halved along its edges
+  uint32_t refineDepth = 2;     // times a beam may be halved along its edges
 };
 
 inline const char* nameOf(Source source) {

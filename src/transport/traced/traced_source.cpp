@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "optics/refraction.h"
+#include "scene/mesh_checks.h"
 
 namespace nephroid {
 namespace {
@@ -17,10 +18,21 @@ std::vector<const Material*> materialsOf(const Scene& scene) {
 }  // namespace
 
 TracedSource::TracedSource(const Scene& sceneToTrace, const RayScene& rays)
-    : scene(sceneToTrace), follower(rays, materialsOf(sceneToTrace)) {}
+    : scene(sceneToTrace), follower(rays, materialsOf(sceneToTrace)) {
+  for (const Mesh& mesh : scene.meshes) boxes.push_back(boundingBox(mesh));
+}
 
 MediumStack TracedSource::mediaAround(const Emitter& emitter) const {
-  return emitter.type == kEmitterDirectional ? MediumStack{} : follower.mediaAround(emitter.position);
+  if (emitter.type == kEmitterDirectional) return {};
+  // Most lights stand in no caster's box, and then need no ray.
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const vec3 place = object.placement.inversePoint(emitter.position);
+    const auto& [low, high] = boxes[object.mesh];
+    if (scene.isCaster(object) && glm::all(glm::greaterThanEqual(place, low)) && glm::all(glm::lessThanEqual(place, high)))
+      return follower.mediaAround(emitter.position);
+  }
+  return {};
 }
 
 bool TracedSource::isLit(const TransportQuery& query, const SurfacePoint& point, vec3 direction) const {

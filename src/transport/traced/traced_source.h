@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "transport/follow.h"
 #include "transport/source.h"
 
@@ -25,6 +28,7 @@ class TracedSource : public TransportSource {
 
   const Scene& scene;
   Follower follower;
+  std::vector<std::pair<vec3, vec3>> boxes;  // of the meshes, in their own space
 };
 
 }  // namespace nephroid

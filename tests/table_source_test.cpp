@@ -1,0 +1,123 @@
+// The light transport table as a source of beams: what its numbers of bits do to an image, and what it costs to move things.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "beams/build.h"
+#include "render/measure.h"
+#include "scene/emitters.h"
+#include "scene/mesh_checks.h"
+#include "scene/shapes.h"
+#include "techniques/illumination_textures/plan.h"
+#include "transport/queries.h"
+#include "transport/table/entry.h"
+#include "transport/table/table_source.h"
+#include "transport/traced/traced_source.h"
+
+namespace nephroid {
+namespace {
+
+// A ball of 6,400 vertices over a floor, a point light aside: the scene of Iwasaki 2005, figures 8 (a) and 12.
+Scene ballOverFloor() {
+  Scene scene;
+  scene.materials.resize(2);
+  scene.materials[0].type = MaterialType::dielectric;
+  scene.meshes = {makeSphere(0.5f, {.vertices = 6400}), makePlane({20, 20})};
+  scene.objects.resize(2);
+  scene.objects[0].placement.translation = {0, 1, 0};
+  scene.objects[1].mesh = 1;
+  scene.objects[1].material = 1;
+  Light light;
+  light.position = {3, 3.5f, 0};
+  light.intensity = vec3(100);
+  scene.lights = {light};
+  return scene;
+}
+
+const Sensor kFloor{"floor", {-2, 0, -0.75f}, {1.5f, 0, 0}, {0, 0, 1.5f}, {128, 128}};
+
+float quantised(float value) { return std::round(glm::clamp(value, 0.0f, 1.0f) * 65535.0f) / 65535.0f; }
+
+// Traced rays at the vertices, kept in as many bits as a table keeps them in.
+class QuantisedSource : public TransportSource {
+ public:
+  QuantisedSource(const Scene& sceneOf, const TracedSource& tracedOf, bool isExactOf)
+      : scene(sceneOf), traced(tracedOf), isExact(isExactOf) {}
+
+  void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const override {
+    traced.vertexRays(query, rays);
+    if (isExact) return;
+    const Object& object = scene.objects[query.object];
+    const auto [low, high] = boundingBox(scene.meshOf(object));
+    for (OutgoingRay& ray : rays) {
+      vec3 place = (object.placement.inversePoint(ray.position) - low) / (high - low);
+      for (int i = 0; i < 3; ++i) place[i] = quantised(place[i]);
+      ray.position = object.placement.point(low + place * (high - low));
+      const vec2 square = octahedralFromDirection(object.placement.inverseDirection(ray.direction));
+      ray.direction = object.placement.direction(directionFromOctahedral({quantised(square.x), quantised(square.y)}));
+      ray.transmittance = vec3(quantised(ray.transmittance.x));
+    }
+  }
+  bool refines() const override { return false; }
+  OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override { return traced.rayAt(query, point); }
+
+ private:
+  const Scene& scene;
+  const TracedSource& traced;
+  bool isExact;
+};
+
+TEST(TableSource, ItsBitsChangeTheImageByLessThanOnePercent) {
+  const Scene scene = ballOverFloor();
+  const RayScene rays(scene);
+  const TracedSource traced(scene, rays);
+  Progress progress;
+  Stats stats;
+  const auto read = [&](bool isExact) {
+    const QuantisedSource source(scene, traced, isExact);
+    return measureBeams(scene, rays, source, kFloor, Paths::transmission, 0, progress, stats);
+  };
+  const SensorLayer exact = read(true), coarse = read(false);
+  double peak = 0, largest = 0, squares = 0, sum = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const double difference = double(coarse[i].y) - double(exact[i].y);
+    peak = std::max(peak, double(exact[i].y));
+    largest = std::max(largest, std::abs(difference));
+    squares += difference * difference;
+    sum += double(exact[i].y);
+  }
+  const double mean = sum / double(exact.size());
+  RecordProperty("largest_of_peak", std::to_string(largest / peak));
+  RecordProperty("rmse_of_mean", std::to_string(std::sqrt(squares / double(exact.size())) / mean));
+  EXPECT_LT(largest / peak, 0.01);
+  EXPECT_LT(std::sqrt(squares / double(exact.size())) / mean, 0.01);
+}
+
+TEST(TableSource, MotionOfCasterReceiverAndLightTracesNoRay) {
+  Scene scene = ballOverFloor();
+  RayScene rays(scene);
+  const TracedSource traced(scene, rays);
+  Progress progress;
+  std::vector<std::optional<TransportTable>> tables(2);
+  tables[0] = buildTable(scene.meshes[0], vec3(1.5f), {.directions = 33}, progress);
+  const TableSource source(scene, std::move(tables), traced);
+  const uint64_t before = raysTraced();
+  for (int step = 0; step < 5; ++step) {
+    Placement& ball = scene.objects[0].placement;
+    ball.translation += vec3(0.1f, 0.05f, -0.07f);
+    ball.rotation = glm::angleAxis(0.3f * float(step), normalize(vec3(1, 2, 3)));
+    scene.objects[1].placement.translation.y -= 0.1f;
+    scene.lights[0].position += vec3(-0.4f, 0.1f, 0.3f);
+    rays.place(scene);
+    const Emitter emitter = emittersOf(scene)[0];
+    const auto queries = queriesFor(scene, 0, emitter, traced.mediaAround(emitter), Paths::transmission);
+    const BeamSet set = buildBeams(scene, source, queries[0].query, queries[0].bandColor, {.refineDepth = 0, .targets = {}});
+    EXPECT_GT(set.beams.size(), 1000u);
+    EXPECT_EQ(planPlanes(set.beams, receiverBoxes(scene), 4, 512).planes, 4u);
+  }
+  EXPECT_EQ(raysTraced(), before);
+}
+
+}  // namespace
+}  // namespace nephroid
