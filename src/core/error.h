@@ -5,12 +5,14 @@
 
 namespace nephroid {
 
-// The input is wrong: exit status 2. The message is one line: what, in which file and line or key, and what would be right.
+// The input is wrong: exit status 2. The message is one line: what, in which file and line or key, and what
+// would be right.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The input is right, but it could not be done here (no memory, no device, a file not writable): exit status 1.
+// The input is right, but it could not be done here (no memory, no device, a file not writable): exit
+// status 1.
 struct RuntimeFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
