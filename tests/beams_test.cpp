@@ -19,7 +19,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-PlaneGrid unitGrid() { return {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}}; }
+PlaneGrid unitGrid() {
+  return {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+}
 
 // A beam that meets the grid's plane, one texel a metre, in these texel coordinates, straight from above.
 Beam beamOnto(vec2 a, vec2 b, vec2 c, float flux = 1) {
@@ -34,7 +36,8 @@ Beam beamOnto(vec2 a, vec2 b, vec2 c, float flux = 1) {
 }
 
 double total(const std::vector<glm::dvec3>& texels) {
-  return std::accumulate(texels.begin(), texels.end(), 0.0, [](double sum, const glm::dvec3& t) { return sum + t.x; });
+  return std::accumulate(texels.begin(), texels.end(), 0.0,
+                         [](double sum, const glm::dvec3& t) { return sum + t.x; });
 }
 
 TEST(Footprint, LeavesItsWholeFluxWhateverItsSize) {
@@ -44,10 +47,13 @@ TEST(Footprint, LeavesItsWholeFluxWhateverItsSize) {
   for (const float size : {30.0f, 3.0f, 1.0f, 0.3f, 1e-2f, 1e-4f, 1e-6f, 0.0f})
     for (int i = 0; i < 200; ++i) {
       const vec2 center(place(random), place(random));
-      const auto corner = [&] { return glm::clamp(center + size * vec2(unit(random), unit(random)), vec2(0), vec2(63.9f)); };
+      const auto corner = [&] {
+        return glm::clamp(center + size * vec2(unit(random), unit(random)), vec2(0), vec2(63.9f));
+      };
       const Beam beam = beamOnto(corner(), corner(), corner());
       // Coverage of a triangle no thinner than a sliver has at least four digits.
-      EXPECT_NEAR(total(depositFlux({&beam, 1}, unitGrid(), {64, 64})), 1, 2e-4) << "size " << size << ", " << i;
+      EXPECT_NEAR(total(depositFlux({&beam, 1}, unitGrid(), {64, 64})), 1, 2e-4)
+          << "size " << size << ", " << i;
     }
 }
 
@@ -140,7 +146,8 @@ TEST(Beams, ThroughATiltedPlateAreShiftedAsSnellSays) {
   // Where the middle of the light lands that enters the top and leaves the bottom.
   const double inside = std::asin(std::sin(kPi / 4) / 1.5);
   const double shift = 0.2 * std::tan(inside);
-  // Entry points whose exit lies on the bottom: x in [-0.5, 0.5 - shift]; from y = 0.4 on they travel as they came.
+  // Entry points whose exit lies on the bottom: x in [-0.5, 0.5 - shift]; from y = 0.4 on they travel as they
+  // came.
   const double x = -shift / 2 + shift + 0.4;
   const double reflectance = double(fresnelReflectance(float(std::cos(kPi / 4)), 1 / 1.5f));
   const double expectedLux = 1000 * std::cos(kPi / 4) * (1 - reflectance) * (1 - reflectance);
@@ -162,8 +169,9 @@ TEST(Beams, ThroughFlatOpenWaterKeepTheCosineAndTheTransmittance) {
   for (const vec3& lux : causticsOf(setup)) ASSERT_NEAR(lux.y, expected, 0.005 * expected);
 }
 
-// The exit ray of a ball is known: light that comes in at distance h from the axis is turned by twice (incidence - refraction).
-// Illuminance of a ring on the floor is the flux of all h that land there over the ring's area.
+// The exit ray of a ball is known: light that comes in at distance h from the axis is turned by twice
+// (incidence - refraction). Illuminance of a ring on the floor is the flux of all h that land there over the
+// ring's area.
 TEST(Beams, OfABallMatchTheClosedFormBeforeInAndPastTheFocus) {
   for (const float height : {0.6f, 0.9f, 1.2f}) {
     constexpr double kRadius = 0.5;
@@ -177,10 +185,12 @@ TEST(Beams, OfABallMatchTheClosedFormBeforeInAndPastTheFocus) {
       const double turned = 2 * (incidence - refraction);
       // It leaves on the far side, at this angle from the axis.
       const double exitAngle = 2 * refraction - incidence;
-      const double exitX = kRadius * std::sin(exitAngle), exitY = double(height) - kRadius * std::cos(exitAngle);
+      const double exitX = kRadius * std::sin(exitAngle),
+                   exitY = double(height) - kRadius * std::cos(exitAngle);
       const double landing = std::abs(exitX - exitY * std::tan(turned));
       const auto ring = std::size_t(landing / ringWidth);
-      if (ring < flux.size()) flux[ring] += 1000 * 2 * kPi * h * (kRadius / kSteps) * (1 - reflectance) * (1 - reflectance);
+      if (ring < flux.size())
+        flux[ring] += 1000 * 2 * kPi * h * (kRadius / kSteps) * (1 - reflectance) * (1 - reflectance);
     }
     Arrangement setup = underTheSun(makeSphere(0.5f, {.vertices = 25600}), height);
     setup.sensor = {"floor", {-0.5f, 0, -0.5f}, {1, 0, 0}, {0, 0, 1}, {512, 512}};
@@ -190,13 +200,16 @@ TEST(Beams, OfABallMatchTheClosedFormBeforeInAndPastTheFocus) {
     for (int y = 0; y < 512; ++y)
       for (int x = 0; x < 512; ++x) {
         const auto ring = std::size_t(std::hypot((x + 0.5) / 512 - 0.5, (y + 0.5) / 512 - 0.5) / ringWidth);
-        if (ring < measured.size()) measured[ring] += double(layer[std::size_t(y) * 512 + std::size_t(x)].y) * texelArea;
+        if (ring < measured.size())
+          measured[ring] += double(layer[std::size_t(y) * 512 + std::size_t(x)].y) * texelArea;
       }
     const double all = std::accumulate(flux.begin(), flux.end(), 0.0);
-    EXPECT_NEAR(std::accumulate(measured.begin(), measured.end(), 0.0), all, 0.005 * all) << "height " << height;
+    EXPECT_NEAR(std::accumulate(measured.begin(), measured.end(), 0.0), all, 0.005 * all)
+        << "height " << height;
     // A texel is an eighth of a ring: what straddles two rings is told apart only so far.
     for (int ring = 0; ring < kRings; ++ring)
-      EXPECT_NEAR(measured[ring], flux[ring], 0.04 * flux[ring] + 0.004 * all) << "height " << height << ", ring " << ring;
+      EXPECT_NEAR(measured[ring], flux[ring], 0.04 * flux[ring] + 0.004 * all)
+          << "height " << height << ", ring " << ring;
   }
 }
 

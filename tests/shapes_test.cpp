@@ -131,7 +131,8 @@ TEST(Shapes, TeapotIsThreeClosedSurfacesThatLookOutward) {
     EXPECT_GT(topology.signedVolume, 0.05);
     float wrong = 0;
     for (const uvec3 t : mesh.triangles) {
-      const vec3 face = glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
+      const vec3 face =
+          glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
       for (int k = 0; k < 3; ++k) wrong += glm::dot(face, mesh.normals[t[k]]) <= 0 ? 1.0f : 0.0f;
     }
     // With two parts to a patch the lip of the spout is too coarse for that.

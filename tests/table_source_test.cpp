@@ -1,4 +1,5 @@
-// The light transport table as a source of beams: what its numbers of bits do to an image, and what it costs to move things.
+// The light transport table as a source of beams: what its numbers of bits do to an image, and what it costs
+// to move things.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@
 namespace nephroid {
 namespace {
 
-// A ball of 6,400 vertices over a floor, a point light aside: the scene of Iwasaki 2005, figures 8 (a) and 12.
+// A ball of 6,400 vertices over a floor, a point light aside: the scene of Iwasaki 2005, figures 8 (a)
+// and 12.
 Scene ballOverFloor() {
   Scene scene;
   scene.materials.resize(2);
@@ -37,7 +39,9 @@ Scene ballOverFloor() {
 
 const Sensor kFloor{"floor", {-2, 0, -0.75f}, {1.5f, 0, 0}, {0, 0, 1.5f}, {128, 128}};
 
-float quantised(float value) { return std::round(glm::clamp(value, 0.0f, 1.0f) * 65535.0f) / 65535.0f; }
+float quantised(float value) {
+  return std::round(glm::clamp(value, 0.0f, 1.0f) * 65535.0f) / 65535.0f;
+}
 
 // Traced rays at the vertices, kept in as many bits as a table keeps them in.
 class QuantisedSource : public TransportSource {
@@ -55,12 +59,15 @@ class QuantisedSource : public TransportSource {
       for (int i = 0; i < 3; ++i) place[i] = quantised(place[i]);
       ray.position = object.placement.point(low + place * (high - low));
       const vec2 square = octahedralFromDirection(object.placement.inverseDirection(ray.direction));
-      ray.direction = object.placement.direction(directionFromOctahedral({quantised(square.x), quantised(square.y)}));
+      ray.direction =
+          object.placement.direction(directionFromOctahedral({quantised(square.x), quantised(square.y)}));
       ray.transmittance = vec3(quantised(ray.transmittance.x));
     }
   }
   bool refines() const override { return false; }
-  OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override { return traced.rayAt(query, point); }
+  OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override {
+    return traced.rayAt(query, point);
+  }
 
  private:
   const Scene& scene;
@@ -112,7 +119,8 @@ TEST(TableSource, MotionOfCasterReceiverAndLightTracesNoRay) {
     rays.place(scene);
     const Emitter emitter = emittersOf(scene)[0];
     const auto queries = queriesFor(scene, 0, emitter, traced.mediaAround(emitter), Paths::transmission);
-    const BeamSet set = buildBeams(scene, source, queries[0].query, queries[0].bandColor, {.refineDepth = 0, .targets = {}});
+    const BeamSet set =
+        buildBeams(scene, source, queries[0].query, queries[0].bandColor, {.refineDepth = 0, .targets = {}});
     EXPECT_GT(set.beams.size(), 1000u);
     EXPECT_EQ(planPlanes(set.beams, receiverBoxes(scene), 4, 512).planes, 4u);
   }

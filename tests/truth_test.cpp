@@ -20,7 +20,9 @@ struct Case {
   double rmseTolerance;  // of the mean; the answer's own spread is part of it
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.answer; }
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.answer;
+}
 
 class Truth : public testing::TestWithParam<Case> {};
 
@@ -34,7 +36,8 @@ TEST_P(Truth, IsMetByTheBeamsAlone) {
   const TracedSource source(scene, rays);
   Progress progress;
   Stats stats;
-  const SensorLayer layer = measureBeams(scene, rays, source, scene.sensors.at(0), wanted.paths, 2, progress, stats);
+  const SensorLayer layer =
+      measureBeams(scene, rays, source, scene.sensors.at(0), wanted.paths, 2, progress, stats);
   const std::vector<float>& truth = *answer.find("G");
   ASSERT_EQ(layer.size(), truth.size());
   double sum = 0, truthSum = 0, squares = 0;
@@ -44,11 +47,13 @@ TEST_P(Truth, IsMetByTheBeamsAlone) {
     squares += std::pow(double(layer[i].y) - double(truth[i]), 2);
   }
   EXPECT_NEAR(sum / truthSum, 1, wanted.fluxTolerance);
-  EXPECT_LT(std::sqrt(squares / double(truth.size())) / (truthSum / double(truth.size())), wanted.rmseTolerance);
+  EXPECT_LT(std::sqrt(squares / double(truth.size())) / (truthSum / double(truth.size())),
+            wanted.rmseTolerance);
 }
 
-// Tolerances are the project's own bars: 1 % of the flux and 5 % for balls of 25,600 vertices, 3 % of the flux for scanned meshes,
-// whose sharp folds leave a texel's worth of difference at every line; 0.5 % of the flux for waves.
+// Tolerances are the project's own bars: 1 % of the flux and 5 % for balls of 25,600 vertices, 3 % of the
+// flux for scanned meshes, whose sharp folds leave a texel's worth of difference at every line; 0.5 % of the
+// flux for waves.
 constexpr Case kCases[] = {
     {"ball-point", "ball-point.transmission.pfm", Paths::transmission, 0.01, 0.05},
     {"ball-point", "ball-point.all.pfm", Paths::all, 0.01, 0.05},

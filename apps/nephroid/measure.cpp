@@ -90,7 +90,8 @@ void runMeasure(const MeasureOptions& options) {
   if (device) stats.memoryBytes = device->memoryBytes();
 
   const SensorLayer direct = measureDirect(scene, rays, sensor, progress);
-  writeExr(options.output, sensorImage(scene, sensor, direct, causticsLayer), imageAttributes(settings, "lux"));
+  writeExr(options.output, sensorImage(scene, sensor, direct, causticsLayer),
+           imageAttributes(settings, "lux"));
   writeStats(options.stats, stats);
 }
 

@@ -19,9 +19,9 @@ constexpr std::size_t kBlock = 64;  // triangles whose beams one task makes
 constexpr float kInset = 1e-3f;
 
 struct Corner {
-  vec3 weights{0};            // barycentric, in the mesh's triangle
-  vec3 position{0};           // m, on the surface
-  uint32_t vertex = kNone;    // of the mesh; none where a triangle was cut
+  vec3 weights{0};          // barycentric, in the mesh's triangle
+  vec3 position{0};         // m, on the surface
+  uint32_t vertex = kNone;  // of the mesh; none where a triangle was cut
   OutgoingRay ray{};
 };
 using Triangle = std::array<Corner, 3>;
@@ -45,7 +45,8 @@ struct Surface {
   }
 };
 
-// Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983), positive when it is seen counter-clockwise.
+// Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983), positive when it is seen
+// counter-clockwise.
 float solidAngle(vec3 a, vec3 b, vec3 c) {
   const glm::dvec3 p(a), q(b), r(c);
   const double la = glm::length(p), lb = glm::length(q), lc = glm::length(r);
@@ -58,14 +59,16 @@ struct VertexRays {
   const Mesh& mesh;
   const Placement& placement;
   std::vector<OutgoingRay> rays;
-  std::vector<uint32_t> steadyTriangles;  // for each vertex a triangle about it whose rays all go one way, if there is one
+  std::vector<uint32_t>
+      steadyTriangles;  // for each vertex a triangle about it whose rays all go one way, if there is one
 
   void findSteadyTriangles() {
     steadyTriangles.assign(rays.size(), kNone);
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       const uvec3& corners = mesh.triangles[t];
       const OutgoingRay &a = rays[corners.x], &b = rays[corners.y], &c = rays[corners.z];
-      if ((a.flags | b.flags | c.flags) != 0 || a.signature != b.signature || a.signature != c.signature) continue;
+      if ((a.flags | b.flags | c.flags) != 0 || a.signature != b.signature || a.signature != c.signature)
+        continue;
       for (int i = 0; i < 3; ++i) steadyTriangles[corners[i]] = t;
     }
   }
@@ -74,9 +77,14 @@ struct VertexRays {
 // Makes the beams of one triangle of the mesh.
 class Builder {
  public:
-  Builder(const TransportSource& sourceOf, const TransportQuery& queryOf, vec3 color, const BeamSettings& settingsOf,
-          const Surface& surfaceOf, const VertexRays& verticesOf)
-      : source(sourceOf), query(queryOf), bandColor(color), settings(settingsOf), surface(surfaceOf), vertices(verticesOf),
+  Builder(const TransportSource& sourceOf, const TransportQuery& queryOf, vec3 color,
+          const BeamSettings& settingsOf, const Surface& surfaceOf, const VertexRays& verticesOf)
+      : source(sourceOf),
+        query(queryOf),
+        bandColor(color),
+        settings(settingsOf),
+        surface(surfaceOf),
+        vertices(verticesOf),
         facing(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f) {}
 
   void add(const Triangle& triangle, uint32_t forcedCuts, BeamSet& set) const {
@@ -93,8 +101,8 @@ class Builder {
 
  private:
   vec3 incident(const Triangle& t) const {
-    return bandColor * glm::max(facing * fluxOnto(query.emitter, t[0].position, t[1].position, t[2].position),
-                                vec3(0));
+    return bandColor *
+           glm::max(facing * fluxOnto(query.emitter, t[0].position, t[1].position, t[2].position), vec3(0));
   }
 
   bool arrives(const OutgoingRay& ray) const {
@@ -109,7 +117,8 @@ class Builder {
   bool sameWay(const Triangle& t) const {
     const bool arrivesA = arrives(t[0].ray);
     return arrivesA == arrives(t[1].ray) && arrivesA == arrives(t[2].ray) &&
-           (!arrivesA || (t[0].ray.signature == t[1].ray.signature && t[0].ray.signature == t[2].ray.signature));
+           (!arrivesA ||
+            (t[0].ray.signature == t[1].ray.signature && t[0].ray.signature == t[2].ray.signature));
   }
 
   Corner between(const Triangle& t, const Corner& a, const Corner& b) const {
@@ -121,14 +130,16 @@ class Builder {
     return middle;
   }
 
-  // Whether the ray at a side's middle lies off the middle of the rays at its ends by more than the tolerance.
+  // Whether the ray at a side's middle lies off the middle of the rays at its ends by more than the
+  // tolerance.
   bool bends(const Corner& a, const Corner& b, const Corner& middle) const {
     for (const PlaneGrid& target : settings.targets) {
       vec2 atA, atB, atMiddle;
       float distance;
       const bool meets = meetPlane(a.ray.position, a.ray.direction, target, atA, distance);
       if (meets != meetPlane(b.ray.position, b.ray.direction, target, atB, distance)) return true;
-      if (meets != meetPlane(middle.ray.position, middle.ray.direction, target, atMiddle, distance)) return true;
+      if (meets != meetPlane(middle.ray.position, middle.ray.direction, target, atMiddle, distance))
+        return true;
       if (meets && length(atMiddle - 0.5f * (atA + atB)) > settings.refineTolerance) return true;
     }
     return false;
@@ -155,9 +166,11 @@ class Builder {
     cutAt(t, middlesOf(t), depth, forcedCuts, set);
   }
 
-  void cutAt(const Triangle& t, const std::array<Corner, 3>& m, uint32_t depth, uint32_t forcedCuts, BeamSet& set) const {
+  void cutAt(const Triangle& t, const std::array<Corner, 3>& m, uint32_t depth, uint32_t forcedCuts,
+             BeamSet& set) const {
     ++set.refined;
-    const Triangle parts[4] = {{t[0], m[0], m[2]}, {m[0], t[1], m[1]}, {m[2], m[1], t[2]}, {m[0], m[1], m[2]}};
+    const Triangle parts[4] = {
+        {t[0], m[0], m[2]}, {m[0], t[1], m[1]}, {m[2], m[1], t[2]}, {m[0], m[1], m[2]}};
     for (const Triangle& part : parts) {
       if (forcedCuts > 1) {
         cut(part, depth, forcedCuts - 1, set);
@@ -188,8 +201,10 @@ class Builder {
 
   // The part of a triangle nearest to one of its corners goes the corner's way.
   void emitThird(const Triangle& t, int corner, vec3 flux, BeamSet& set) const {
-    const vec3 own = t[corner].weights, next = t[(corner + 1) % 3].weights, last = t[(corner + 2) % 3].weights;
-    const std::array<vec3, 4> outline{own, 0.5f * (own + next), (own + next + last) / 3.0f, 0.5f * (own + last)};
+    const vec3 own = t[corner].weights, next = t[(corner + 1) % 3].weights,
+               last = t[(corner + 2) % 3].weights;
+    const std::array<vec3, 4> outline{own, 0.5f * (own + next), (own + next + last) / 3.0f,
+                                      0.5f * (own + last)};
     for (const auto& part : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
       Beam beam{};
       for (int i = 0; i < 3; ++i) {
@@ -203,8 +218,9 @@ class Builder {
     }
   }
 
-  // The ray at a point next to a corner whose way it goes: as a steady triangle of the mesh at the corner continues, or else
-  // parallel to the corner's own, so that light is as dense as it came in, and no point glares.
+  // The ray at a point next to a corner whose way it goes: as a steady triangle of the mesh at the corner
+  // continues, or else parallel to the corner's own, so that light is as dense as it came in, and no point
+  // glares.
   OutgoingRay rayNear(const Corner& corner, vec3 point) const {
     OutgoingRay ray = corner.ray;
     const uint32_t steady = corner.vertex == kNone ? kNone : vertices.steadyTriangles[corner.vertex];
@@ -249,7 +265,8 @@ Surface surfaceOf(const Object& object, const Mesh& mesh, const uvec3& triangle)
     surface.positions[i] = object.placement.point(mesh.positions[triangle[i]]);
     surface.normals[i] = object.placement.direction(mesh.normals[triangle[i]]);
   }
-  const vec3 doubledArea = cross(surface.positions[1] - surface.positions[0], surface.positions[2] - surface.positions[0]);
+  const vec3 doubledArea =
+      cross(surface.positions[1] - surface.positions[0], surface.positions[2] - surface.positions[0]);
   surface.geometricNormal = doubledArea / std::max(length(doubledArea), 1e-30f);
   surface.isCurved = mesh.isCurved;
   return surface;
@@ -265,13 +282,14 @@ uint32_t forcedCutsFor(const Mesh& mesh, const uvec3& t, float extent) {
 }  // namespace
 
 vec3 fluxOnto(const Emitter& emitter, vec3 a, vec3 b, vec3 c) {
-  if (emitter.type == kEmitterDirectional) return emitter.power * (-0.5f * dot(emitter.direction, cross(b - a, c - a)));
+  if (emitter.type == kEmitterDirectional)
+    return emitter.power * (-0.5f * dot(emitter.direction, cross(b - a, c - a)));
   const vec3 power = emitterPower(emitter, normalize((a + b + c) / 3.0f - emitter.position));
   return power * solidAngle(a - emitter.position, b - emitter.position, c - emitter.position);
 }
 
-BeamSet buildBeams(const Scene& scene, const TransportSource& source, const TransportQuery& query, vec3 bandColor,
-                   const BeamSettings& settings) {
+BeamSet buildBeams(const Scene& scene, const TransportSource& source, const TransportQuery& query,
+                   vec3 bandColor, const BeamSettings& settings) {
   const Object& object = scene.objects[query.object];
   const Mesh& mesh = scene.meshOf(object);
   VertexRays vertices{mesh, object.placement, std::vector<OutgoingRay>(mesh.positions.size()), {}};

@@ -1,4 +1,5 @@
-// Beams between the outgoing rays of a caster's triangles (illumination volumes; Nishita and Nakamae 1994, Iwasaki 2005).
+// Beams between the outgoing rays of a caster's triangles (illumination volumes; Nishita and Nakamae 1994,
+// Iwasaki 2005).
 #pragma once
 
 #include <vector>
@@ -10,9 +11,11 @@
 namespace nephroid {
 
 struct BeamSettings {
-  // Times a triangle may be cut in four where its rays take different ways or bend (sources that can trace anywhere).
+  // Times a triangle may be cut in four where its rays take different ways or bend (sources that can trace
+  // anywhere).
   uint32_t refineDepth = 3;
-  // Texels of `targets` that the ray of a side's midpoint may lie off the middle of its ends' before the triangle is cut.
+  // Texels of `targets` that the ray of a side's midpoint may lie off the middle of its ends' before the
+  // triangle is cut.
   float refineTolerance = 0.1f;
   // Planes on which bending is judged.
   std::vector<PlaneGrid> targets;
@@ -28,10 +31,10 @@ struct BeamSet {
   uint64_t split = 0;    // beams whose corners took different ways to the end, shared out corner by corner
 };
 
-// The beams of one query. `bandColor` is the part of each channel that travels in the query's band: (1, 1, 1) where all
-// channels are bent alike. The order of the beams does not depend on the number of threads.
-BeamSet buildBeams(const Scene& scene, const TransportSource& source, const TransportQuery& query, vec3 bandColor,
-                   const BeamSettings& settings);
+// The beams of one query. `bandColor` is the part of each channel that travels in the query's band: (1, 1, 1)
+// where all channels are bent alike. The order of the beams does not depend on the number of threads.
+BeamSet buildBeams(const Scene& scene, const TransportSource& source, const TransportQuery& query,
+                   vec3 bandColor, const BeamSettings& settings);
 
 // lm from the emitter onto a triangle, counted positive where its front (counter-clockwise) faces the light.
 vec3 fluxOnto(const Emitter& emitter, vec3 a, vec3 b, vec3 c);

@@ -54,7 +54,8 @@ class FluxGrid {
     vec2 texel[3];
     bool meets[3];
     float distance;
-    for (int i = 0; i < 3; ++i) meets[i] = meetPlane(beam.position[i], beam.direction[i], grid, texel[i], distance);
+    for (int i = 0; i < 3; ++i)
+      meets[i] = meetPlane(beam.position[i], beam.direction[i], grid, texel[i], distance);
     const glm::dvec3 flux(beam.flux);
     if (meets[0] && meets[1] && meets[2]) return addTriangle(texel[0], texel[1], texel[2], flux);
     for (int i = 0; i < 3; ++i)

@@ -1,6 +1,8 @@
-// Where a beam crosses a plane, and how much of that triangle each texel of a grid on the plane holds. Once for C++ and GLSL.
+// Where a beam crosses a plane, and how much of that triangle each texel of a grid on the plane holds. Once
+// for C++ and GLSL.
 //
-// Coverage is exact (the integral of the triangle over the texel), so a beam leaves its whole flux behind whatever its size.
+// Coverage is exact (the integral of the triangle over the texel), so a beam leaves its whole flux behind
+// whatever its size.
 #ifndef NEPHROID_BEAMS_FOOTPRINT_H
 #define NEPHROID_BEAMS_FOOTPRINT_H
 
@@ -8,7 +10,8 @@
 
 SHARED_BEGIN
 
-// A grid of texels on a plane. A point p lies at texel coordinates (dot(p - corner, axisU), dot(p - corner, axisV)).
+// A grid of texels on a plane. A point p lies at texel coordinates (dot(p - corner, axisU), dot(p - corner,
+// axisV)).
 struct PlaneGrid {
   vec3 corner;  // m, where texel (0, 0) begins
   vec3 axisU;   // texels per metre along a row
@@ -17,7 +20,8 @@ struct PlaneGrid {
 };
 
 // Texel coordinates where a ray meets the plane. False where it moves away from the plane or along it.
-SHARED_FUNCTION bool meetPlane(vec3 position, vec3 direction, PlaneGrid grid, OUT(vec2) texel, OUT(float) rayDistance) {
+SHARED_FUNCTION bool meetPlane(vec3 position, vec3 direction, PlaneGrid grid, OUT(vec2) texel,
+                               OUT(float) rayDistance) {
   float approach = dot(direction, grid.normal);
   rayDistance = dot(grid.corner - position, grid.normal) / max(approach, 1e-6f);
   vec3 offset = position + rayDistance * direction - grid.corner;
@@ -35,8 +39,8 @@ SHARED_FUNCTION float clampedIntegral(float x) {
   return 0.5f * inside * inside + max(x - 1.0f, 0.0f);
 }
 
-// What a triangle's sides do within one row of texels: x where each enters the row and where it leaves it, and how far it goes
-// down it (texels; negative when it goes up).
+// What a triangle's sides do within one row of texels: x where each enters the row and where it leaves it,
+// and how far it goes down it (texels; negative when it goes up).
 struct TriangleRow {
   vec3 ab;
   vec3 bc;
@@ -95,10 +99,10 @@ SHARED_FUNCTION float triangleCoverage(TriangleRow row, float column) {
   return abs(sideCoverage(row.ab, column) + sideCoverage(row.bc, column) + sideCoverage(row.ca, column));
 }
 
-// Moves a footprint's corners to where float has digits to share it out with: texel t of the grid becomes t - `base`. One smaller
-// than a texel is also scaled to the size of one; it then lies across the lines x = 0 and y = 0 between the texels -1 and 0, or
-// inside texel 0 where it crosses no line. At a focus footprints are a hundredth of a texel, and which side of a line their flux
-// falls on is visible.
+// Moves a footprint's corners to where float has digits to share it out with: texel t of the grid becomes t -
+// `base`. One smaller than a texel is also scaled to the size of one; it then lies across the lines x = 0 and
+// y = 0 between the texels -1 and 0, or inside texel 0 where it crosses no line. At a focus footprints are a
+// hundredth of a texel, and which side of a line their flux falls on is visible.
 SHARED_FUNCTION void centerFootprint(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c, OUT(vec2) base) {
   vec2 lower = min(min(a, b), c);
   vec2 upper = max(max(a, b), c);
@@ -122,10 +126,12 @@ SHARED_FUNCTION bool isSliver(vec2 a, vec2 b, vec2 c) {
 }
 
 // Pieces a sliver is shared out in.
-SHARED_FUNCTION int sliverSteps(vec2 a, vec2 c) { return int(clamp(ceil(2.0f * length(c - a)), 4.0f, 4096.0f)); }
+SHARED_FUNCTION int sliverSteps(vec2 a, vec2 c) {
+  return int(clamp(ceil(2.0f * length(c - a)), 4.0f, 4096.0f));
+}
 
-// A sliver's flux runs along its longest side as a tent with its peak at the third corner. After `sortSliver`, a and c are the
-// ends of the longest side and `peak` is where along it b lies (0 to 1).
+// A sliver's flux runs along its longest side as a tent with its peak at the third corner. After
+// `sortSliver`, a and c are the ends of the longest side and `peak` is where along it b lies (0 to 1).
 SHARED_FUNCTION float sortSliver(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c) {
   vec2 corners[3];
   corners[0] = a;

@@ -129,7 +129,7 @@ struct SamplerOptions {
   VkBorderColor border =
       VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;  // for VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER
   bool mipmapped = false;                       // false: only level 0 is read
-  std::optional<VkCompareOp> compare{};           // depth comparison: sampler2DShadow and the like
+  std::optional<VkCompareOp> compare{};         // depth comparison: sampler2DShadow and the like
 };
 
 class Sampler {

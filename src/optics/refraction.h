@@ -6,8 +6,9 @@
 
 SHARED_BEGIN
 
-// Fraction of unpolarised flux reflected at a smooth dielectric boundary. `cosIncident` >= 0 is taken against the normal on
-// the incident side; `eta` is the index there over the index beyond. 1 at and past the critical angle.
+// Fraction of unpolarised flux reflected at a smooth dielectric boundary. `cosIncident` >= 0 is taken against
+// the normal on the incident side; `eta` is the index there over the index beyond. 1 at and past the critical
+// angle.
 SHARED_FUNCTION float fresnelReflectance(float cosIncident, float eta) {
   float sinTransmittedSquared = eta * eta * (1.0f - cosIncident * cosIncident);
   if (sinTransmittedSquared >= 1.0f) return 1.0f;
@@ -17,8 +18,8 @@ SHARED_FUNCTION float fresnelReflectance(float cosIncident, float eta) {
   return 0.5f * (perpendicular * perpendicular + parallel * parallel);
 }
 
-// Snell's law. `incident` is a unit vector toward the surface, `normal` unit on the incident side. False past the critical
-// angle, where nothing is transmitted and `transmitted` is left as `incident`.
+// Snell's law. `incident` is a unit vector toward the surface, `normal` unit on the incident side. False past
+// the critical angle, where nothing is transmitted and `transmitted` is left as `incident`.
 SHARED_FUNCTION bool refractDirection(vec3 incident, vec3 normal, float eta, OUT(vec3) transmitted) {
   float cosIncident = -dot(incident, normal);
   float sinTransmittedSquared = eta * eta * (1.0f - cosIncident * cosIncident);
@@ -35,7 +36,8 @@ SHARED_FUNCTION vec3 reflectDirection(vec3 incident, vec3 normal) {
 
 // What a length (m) of the material leaves, when `attenuationColor` is left after `attenuationDistance` (m);
 // an infinite or zero distance means a clear material. (KHR_materials_volume)
-SHARED_FUNCTION vec3 volumeTransmittance(vec3 attenuationColor, float inverseAttenuationDistance, float pathLength) {
+SHARED_FUNCTION vec3 volumeTransmittance(vec3 attenuationColor, float inverseAttenuationDistance,
+                                         float pathLength) {
   if (inverseAttenuationDistance <= 0.0f) return vec3(1.0f);
   return pow(attenuationColor, vec3(pathLength * inverseAttenuationDistance));
 }

@@ -37,7 +37,8 @@ void addChannels(Image& image, const std::string& prefix, const SensorLayer& lay
 
 }  // namespace
 
-SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor, Progress& progress) {
+SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor,
+                          Progress& progress) {
   const std::vector<Emitter> emitters = emittersOf(scene);
   const vec3 normal = sensor.normal();
   SensorLayer layer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
@@ -46,7 +47,8 @@ SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor
     for (uint32_t column = 0; column < sensor.resolution.x; ++column) {
       vec3 sum(0);
       for (uint32_t i = 0; i < kShadowGrid * kShadowGrid; ++i) {
-        const vec2 at = vec2(float(i % kShadowGrid) + 0.5f, float(i / kShadowGrid) + 0.5f) / float(kShadowGrid);
+        const vec2 at =
+            vec2(float(i % kShadowGrid) + 0.5f, float(i / kShadowGrid) + 0.5f) / float(kShadowGrid);
         const vec3 point = sensor.corner + sensor.u * ((float(column) + at.x) / float(sensor.resolution.x)) +
                            sensor.v * ((float(row) + at.y) / float(sensor.resolution.y));
         sum += directAt(rays, emitters, point, normal);
@@ -59,8 +61,9 @@ SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor
   return layer;
 }
 
-SensorLayer measureBeams(const Scene& scene, const RayScene& rays, const TransportSource& source, const Sensor& sensor,
-                         Paths paths, uint32_t refineDepth, Progress& progress, Stats& stats) {
+SensorLayer measureBeams(const Scene& scene, const RayScene& rays, const TransportSource& source,
+                         const Sensor& sensor, Paths paths, uint32_t refineDepth, Progress& progress,
+                         Stats& stats) {
   const TracedSource media(scene, rays);
   const PlaneGrid grid = gridOf(sensor);
   BeamSettings settings;
@@ -96,7 +99,8 @@ SensorLayer measureBeams(const Scene& scene, const RayScene& rays, const Transpo
   return layer;
 }
 
-Image sensorImage(const Scene& scene, const Sensor& sensor, const SensorLayer& direct, const SensorLayer& caustics) {
+Image sensorImage(const Scene& scene, const Sensor& sensor, const SensorLayer& direct,
+                  const SensorLayer& caustics) {
   Image image;
   image.width = sensor.resolution.x;
   image.height = sensor.resolution.y;

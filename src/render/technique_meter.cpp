@@ -6,7 +6,8 @@
 namespace nephroid {
 namespace {
 
-// Points looked up along each side of a texel, and averaged: an illumination texture may be much finer than the sensor.
+// Points looked up along each side of a texel, and averaged: an illumination texture may be much finer than
+// the sensor.
 constexpr uint32_t kPointsAlongTexel = 4;  // at once
 constexpr uint32_t kPasses = 4;            // times, between them
 
@@ -14,7 +15,8 @@ constexpr uint32_t kPasses = 4;            // times, between them
 Scene withReceiver(Scene scene, const Sensor& sensor) {
   Mesh quad;
   quad.name = sensor.name;
-  quad.positions = {sensor.corner, sensor.corner + sensor.v, sensor.corner + sensor.v + sensor.u, sensor.corner + sensor.u};
+  quad.positions = {sensor.corner, sensor.corner + sensor.v, sensor.corner + sensor.v + sensor.u,
+                    sensor.corner + sensor.u};
   quad.normals.assign(4, sensor.normal());
   quad.triangles = {{0, 1, 2}, {0, 2, 3}};
   Object object;
@@ -28,8 +30,9 @@ Scene withReceiver(Scene scene, const Sensor& sensor) {
 }
 
 gpu::Image pointImage(gpu::Device& device, const char* name, const Sensor& sensor) {
-  return gpu::createImage(device, name,
-                          {.width = sensor.resolution.x * kPointsAlongTexel, .height = sensor.resolution.y * kPointsAlongTexel});
+  return gpu::createImage(
+      device, name,
+      {.width = sensor.resolution.x * kPointsAlongTexel, .height = sensor.resolution.y * kPointsAlongTexel});
 }
 
 std::vector<std::vector<std::byte>> bytesOf(const std::vector<vec4>& texels) {
@@ -41,9 +44,13 @@ std::vector<std::vector<std::byte>> bytesOf(const std::vector<vec4>& texels) {
 
 TechniqueMeter::TechniqueMeter(gpu::Device& deviceToUse, const Scene& sceneToRead, const Sensor& sensorToRead,
                                const TechniqueSettings& settings, Progress& progress, Stats& stats)
-    : device(deviceToUse), sensor(sensorToRead), scene(withReceiver(sceneToRead, sensorToRead)), gpuScene(device, scene),
+    : device(deviceToUse),
+      sensor(sensorToRead),
+      scene(withReceiver(sceneToRead, sensorToRead)),
+      gpuScene(device, scene),
       technique(makeTechnique({device, scene, settings, progress, stats})),
-      positions(pointImage(device, "sensor positions", sensor)), normals(pointImage(device, "sensor normals", sensor)),
+      positions(pointImage(device, "sensor positions", sensor)),
+      normals(pointImage(device, "sensor normals", sensor)),
       caustics(pointImage(device, "sensor caustics", sensor)) {
   uploadNormals();
 }

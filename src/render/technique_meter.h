@@ -10,12 +10,13 @@
 
 namespace nephroid {
 
-// A sensor read through a technique, as a camera would see a receiver in its place: with all that virtual planes get wrong.
+// A sensor read through a technique, as a camera would see a receiver in its place: with all that virtual
+// planes get wrong.
 class TechniqueMeter {
  public:
   // Device, sensor, progress and stats outlive it.
-  TechniqueMeter(gpu::Device& device, const Scene& scene, const Sensor& sensor, const TechniqueSettings& settings,
-                 Progress& progress, Stats& stats);
+  TechniqueMeter(gpu::Device& device, const Scene& scene, const Sensor& sensor,
+                 const TechniqueSettings& settings, Progress& progress, Stats& stats);
 
   // Illuminance (lux) by light that met a caster; recomputes all that a moved light would change.
   SensorLayer read();

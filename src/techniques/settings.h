@@ -14,8 +14,9 @@ namespace nephroid {
 
 enum class Source { table, traced };
 
-// How a receiver between virtual planes is lit. surface: planes bend onto the receivers, so that light is left where it arrives.
-// blend: from the flat planes before and behind it, as Iwasaki 2005b does; converges as planes are added.
+// How a receiver between virtual planes is lit. surface: planes bend onto the receivers, so that light is
+// left where it arrives. blend: from the flat planes before and behind it, as Iwasaki 2005b does; converges
+// as planes are added.
 enum class Interpolation { surface, blend };
 
 // In the order of the enumerators.

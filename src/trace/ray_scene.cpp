@@ -163,7 +163,8 @@ struct RayScene::Impl {
     const vec3 weights(1 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
     const mat3 positions(mesh.positions[corners.x], mesh.positions[corners.y], mesh.positions[corners.z]);
     const mat3 normals(mesh.normals[corners.x], mesh.normals[corners.y], mesh.normals[corners.z]);
-    const vec3 flatNormal = glm::normalize(glm::cross(positions[1] - positions[0], positions[2] - positions[0]));
+    const vec3 flatNormal =
+        glm::normalize(glm::cross(positions[1] - positions[0], positions[2] - positions[0]));
     hit.geometricNormal = object.placement.direction(flatNormal);
     // From the triangle rather than along the ray: nearer to the surface when the ray is long.
     const vec3 flat = positions * weights;

@@ -22,8 +22,8 @@ struct Hit {
   float distance = 0;       // m
   uint32_t object = kNone;  // index into Scene::objects, or 0 for a scene of one mesh
   uint32_t triangle = 0;
-  uint32_t patch = 0;   // smooth surface of the mesh the triangle belongs to
-  vec2 barycentric{0};  // weights of the triangle's second and third corner
+  uint32_t patch = 0;       // smooth surface of the mesh the triangle belongs to
+  vec2 barycentric{0};      // weights of the triangle's second and third corner
   vec3 position{0};         // on the curved surface where the mesh has one
   vec3 flatPosition{0};     // on the triangle
   vec3 normal{0};           // unit, interpolated from the vertices

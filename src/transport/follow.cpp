@@ -148,7 +148,8 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
       return ray;
     }
     // The triangles are flat: the ray goes on from where its line meets the one it was on.
-    const vec3 start = ray.position + alongRayToPlane(ray.direction, hit.flatPosition - ray.position, hit.geometricNormal);
+    const vec3 start =
+        ray.position + alongRayToPlane(ray.direction, hit.flatPosition - ray.position, hit.geometricNormal);
     const bool goesOn = rays.intersect({start, ray.direction, rays.selfIntersectionDistance()}, hit);
     if (goesOn && materials[hit.object]->isCaster()) {
       absorb(materials, hit.distance, walk);

@@ -5,8 +5,9 @@
 namespace nephroid {
 namespace {
 
-// Every choice among the first four boundaries, then longer runs of reflections inside. What is left out has been through at
-// least three reflections of some 4 % before total reflection, which needs no choice, is counted.
+// Every choice among the first four boundaries, then longer runs of reflections inside. What is left out has
+// been through at least three reflections of some 4 % before total reflection, which needs no choice, is
+// counted.
 std::vector<uint32_t> generationsOf(const Material& material, Paths paths) {
   std::vector<uint32_t> generations{0};
   if (paths == Paths::transmission || material.thinWalled) return generations;
@@ -17,8 +18,8 @@ std::vector<uint32_t> generationsOf(const Material& material, Paths paths) {
 
 }  // namespace
 
-std::vector<BandQuery> queriesFor(const Scene& scene, uint32_t object, const Emitter& emitter, const MediumStack& mediaAround,
-                                  Paths paths) {
+std::vector<BandQuery> queriesFor(const Scene& scene, uint32_t object, const Emitter& emitter,
+                                  const MediumStack& mediaAround, Paths paths) {
   const bool disperses = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& other) {
     const Material& material = scene.materialOf(other);
     return material.type == MaterialType::dielectric && material.isDispersive();

@@ -13,9 +13,10 @@ struct BandQuery {
   vec3 bandColor{1};
 };
 
-// All that has to be asked to know the light of `emitter` through one caster: one band, or three where the caster or another
-// one disperses; for Paths::all one generation per choice of reflections that carries light worth having.
-std::vector<BandQuery> queriesFor(const Scene& scene, uint32_t object, const Emitter& emitter, const MediumStack& mediaAround,
-                                  Paths paths);
+// All that has to be asked to know the light of `emitter` through one caster: one band, or three where the
+// caster or another one disperses; for Paths::all one generation per choice of reflections that carries light
+// worth having.
+std::vector<BandQuery> queriesFor(const Scene& scene, uint32_t object, const Emitter& emitter,
+                                  const MediumStack& mediaAround, Paths paths);
 
 }  // namespace nephroid

@@ -36,10 +36,11 @@ struct TransportQuery {
 
 // A point of a caster's surface where light meets it. World space.
 struct SurfacePoint {
-  vec3 position{0};         // on the curved surface where the mesh has one
-  vec3 flatPosition{0};     // on the triangle
-  vec3 normal{0};           // unit, smooth
-  vec3 geometricNormal{0};  // unit, the triangle's; at a vertex, which is on every surface, the smooth one will do
+  vec3 position{0};      // on the curved surface where the mesh has one
+  vec3 flatPosition{0};  // on the triangle
+  vec3 normal{0};        // unit, smooth
+  vec3 geometricNormal{
+      0};  // unit, the triangle's; at a vertex, which is on every surface, the smooth one will do
   uint32_t patch = 0;
 };
 

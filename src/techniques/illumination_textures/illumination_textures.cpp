@@ -25,7 +25,8 @@ namespace {
 // As many as the fewest workgroups of one dispatch that Vulkan promises can hold, at 64 threads each.
 constexpr std::size_t kMostBeamsADispatch = 65535 * 64 / kThreadsOfBeam;
 
-// Light of one emitter through one caster, along one choice of reflections: it has a mean direction of its own.
+// Light of one emitter through one caster, along one choice of reflections: it has a mean direction of its
+// own.
 struct LitCaster {
   std::vector<Beam> beams;
   std::size_t beamsOfOuterWindow = 0;  // the first so many; the inner window holds the others on all planes
@@ -50,8 +51,8 @@ bool isOfOneColor(const std::vector<LitCaster>& lit) {
   return true;
 }
 
-// Whether all that the outer window's texture is asked for lies off this beam on this plane: the inner one answers there, down to
-// one and a half of the outer one's texels from its borders.
+// Whether all that the outer window's texture is asked for lies off this beam on this plane: the inner one
+// answers there, down to one and a half of the outer one's texels from its borders.
 bool isInsideInnerWindow(const Beam& beam, const PlaneSet& set, uint32_t plane) {
   const PlaneGrid grid = planeGrid(set, plane, 0);
   const float border = 1 + 2 * set.windows[0].texelsPerMetre / set.windows[1].texelsPerMetre;
@@ -59,7 +60,8 @@ bool isInsideInnerWindow(const Beam& beam, const PlaneSet& set, uint32_t plane) 
     vec2 texel;
     float distance;
     if (!meetPlane(beam.position[i], beam.direction[i], grid, texel, distance)) return false;
-    if (std::min(texel.x, texel.y) <= border || std::max(texel.x, texel.y) >= float(set.textureSize) - border) return false;
+    if (std::min(texel.x, texel.y) <= border || std::max(texel.x, texel.y) >= float(set.textureSize) - border)
+      return false;
   }
   return true;
 }
@@ -74,9 +76,11 @@ void putBeamsOfOuterWindowFirst(LitCaster& caster) {
 }
 
 template <class T>
-void ensure(gpu::Device& device, gpu::Buffer& buffer, const char* name, std::size_t count, gpu::MemoryKind kind) {
+void ensure(gpu::Device& device, gpu::Buffer& buffer, const char* name, std::size_t count,
+            gpu::MemoryKind kind) {
   // Half as much again, so that a caustic that grows from frame to frame does not ask for memory in each.
-  if (buffer.size() < count * sizeof(T)) buffer = gpu::createBuffer(device, name, (count + count / 2) * sizeof(T), kind);
+  if (buffer.size() < count * sizeof(T))
+    buffer = gpu::createBuffer(device, name, (count + count / 2) * sizeof(T), kind);
 }
 
 class IlluminationTextures final : public Technique {
@@ -85,16 +89,22 @@ class IlluminationTextures final : public Technique {
 
   void update(const Scene& scene, GpuScene& gpuScene) override;
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
-  void shade(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& causticsLux) override;
+  void shade(gpu::CommandList& commands, const ReceiverPoints& points,
+             const gpu::Image& causticsLux) override;
 
  private:
-  LitCaster light(const Scene& scene, std::span<const BandQuery> bands, std::span<const ReceiverBox> boxes) const;
-  std::vector<Beam> beamsOf(const Scene& scene, std::span<const BandQuery> bands, const BeamSettings& settings) const;
+  LitCaster light(const Scene& scene, std::span<const BandQuery> bands,
+                  std::span<const ReceiverBox> boxes) const;
+  std::vector<Beam> beamsOf(const Scene& scene, std::span<const BandQuery> bands,
+                            const BeamSettings& settings) const;
   void upload();
   void drawReceivers(gpu::CommandList& commands, GpuScene& gpuScene, uint32_t set);
-  void deposit(gpu::CommandList& commands, uint32_t set, uint32_t window, VkDeviceAddress ofBeams, VkDeviceAddress texture);
+  void deposit(gpu::CommandList& commands, uint32_t set, uint32_t window, VkDeviceAddress ofBeams,
+               VkDeviceAddress texture);
   VkDeviceAddress normalsOf(std::size_t set, uint32_t window) const;
-  VkDeviceSize windowBytes() const { return VkDeviceSize(settings.textureSize) * settings.textureSize * sizeof(uint32_t); }
+  VkDeviceSize windowBytes() const {
+    return VkDeviceSize(settings.textureSize) * settings.textureSize * sizeof(uint32_t);
+  }
   std::size_t textureWords() const;
   uint32_t followsReceivers() const { return settings.interpolation == Interpolation::surface; }
 
@@ -120,22 +130,32 @@ class IlluminationTextures final : public Technique {
   gpu::Buffer normals;                      // those of receiverViews, where threads read them one by one
 };
 
-gpu::Program depositProgram(gpu::Device& device, const char* name, uint32_t channels, uint32_t followsReceivers) {
-  return gpu::createComputeProgram(device, name, shaders::deposit_comp, {{0, channels}, {1, followsReceivers}});
+gpu::Program depositProgram(gpu::Device& device, const char* name, uint32_t channels,
+                            uint32_t followsReceivers) {
+  return gpu::createComputeProgram(device, name, shaders::deposit_comp,
+                                   {{0, channels}, {1, followsReceivers}});
 }
 
-gpu::Program shadeProgram(gpu::Device& device, const char* name, uint32_t channels, uint32_t followsReceivers) {
+gpu::Program shadeProgram(gpu::Device& device, const char* name, uint32_t channels,
+                          uint32_t followsReceivers) {
   return gpu::createRasterProgram(device, name, shaders::whole_picture_vert, shaders::shade_frag,
-                                  {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}}, {{0, channels}, {1, followsReceivers}});
+                                  {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
+                                  {{0, channels}, {1, followsReceivers}});
 }
 
 IlluminationTextures::IlluminationTextures(const TechniqueContext& context)
-    : device(context.device), settings(context.settings), stats(context.stats), now(context.scene), rays(now), traced(now, rays),
-      table(settings.source == Source::table ? makeTableSource(now, settings, traced, context.progress) : nullptr),
+    : device(context.device),
+      settings(context.settings),
+      stats(context.stats),
+      now(context.scene),
+      rays(now),
+      traced(now, rays),
+      table(settings.source == Source::table ? makeTableSource(now, settings, traced, context.progress)
+                                             : nullptr),
       source(table ? *table : static_cast<const TransportSource&>(traced)),
-      receiversProgram(gpu::createRasterProgram(device, "receivers from the light", shaders::receivers_vert,
-                                                shaders::receivers_frag,
-                                                {.colors = {{VK_FORMAT_R32_UINT}}, .depthFormat = VK_FORMAT_D32_SFLOAT})),
+      receiversProgram(gpu::createRasterProgram(
+          device, "receivers from the light", shaders::receivers_vert, shaders::receivers_frag,
+          {.colors = {{VK_FORMAT_R32_UINT}}, .depthFormat = VK_FORMAT_D32_SFLOAT})),
       depositPrograms{depositProgram(device, "deposit", 1, followsReceivers()),
                       depositProgram(device, "deposit in color", 3, followsReceivers())},
       shadePrograms{shadeProgram(device, "caustics", 1, followsReceivers()),
@@ -186,7 +206,9 @@ void IlluminationTextures::update(const Scene& scene, GpuScene&) {
       if (!now.isCaster(now.objects[object])) continue;
       const std::vector<BandQuery> queries = queriesFor(now, object, emitter, media, settings.paths);
       for (std::size_t first = 0, last; first < queries.size(); first = last) {
-        for (last = first; last < queries.size() && queries[last].query.reflections == queries[first].query.reflections;) ++last;
+        for (last = first;
+             last < queries.size() && queries[last].query.reflections == queries[first].query.reflections;)
+          ++last;
         LitCaster caster = light(now, std::span(queries).subspan(first, last - first), boxes);
         if (caster.planes.planes == 0) continue;
         putBeamsOfOuterWindowFirst(caster);
@@ -202,7 +224,8 @@ void IlluminationTextures::update(const Scene& scene, GpuScene&) {
 
 std::size_t IlluminationTextures::textureWords() const {
   std::size_t words = 0;
-  for (const LitCaster& caster : lit) words += std::size_t(textureStart(caster.planes, 0, kWindows, channels));
+  for (const LitCaster& caster : lit)
+    words += std::size_t(textureStart(caster.planes, 0, kWindows, channels));
   return words;
 }
 
@@ -218,9 +241,11 @@ void IlluminationTextures::upload() {
     beamBytes += caster.beams.size() * sizeof(Beam);
   }
   const uint32_t side = settings.textureSize;
-  ensure<uint32_t>(device, normals, "receivers' normals", lit.size() * kWindows * side * side, gpu::MemoryKind::device);
+  ensure<uint32_t>(device, normals, "receivers' normals", lit.size() * kWindows * side * side,
+                   gpu::MemoryKind::device);
   while (receiverViews.size() < lit.size()) {
-    gpu::ImageOptions options{.format = VK_FORMAT_R32_UINT, .width = side, .height = side, .layers = kWindows};
+    gpu::ImageOptions options{
+        .format = VK_FORMAT_R32_UINT, .width = side, .height = side, .layers = kWindows};
     gpu::Image normal = gpu::createImage(device, "receivers' normals", options);
     options.format = VK_FORMAT_D32_SFLOAT;
     receiverViews.push_back({std::move(normal), gpu::createImage(device, "receivers' depths", options)});
@@ -230,12 +255,15 @@ void IlluminationTextures::upload() {
 void IlluminationTextures::drawReceivers(gpu::CommandList& commands, GpuScene& gpuScene, uint32_t set) {
   const ReceiverView& view = receiverViews[set];
   for (uint32_t window = 0; window < kWindows; ++window)
-    commands.render({.colors = {{&view.normals, window, vec4(0)}}, .depth = gpu::DepthAttachment{&view.depths, window, 1.0f}}, [&] {
-      for (const SceneDraw& draw : gpuScene.draws())
-        if (draw.type == MaterialType::diffuse)
-          commands.drawIndexed(receiversProgram, gpuScene.indices(), draw.range, 1,
-                               ViewConstants{lit[set].planes, gpuScene.vertices(), gpuScene.objects(), draw.object, window});
-    });
+    commands.render({.colors = {{&view.normals, window, vec4(0)}},
+                     .depth = gpu::DepthAttachment{&view.depths, window, 1.0f}},
+                    [&] {
+                      for (const SceneDraw& draw : gpuScene.draws())
+                        if (draw.type == MaterialType::diffuse)
+                          commands.drawIndexed(receiversProgram, gpuScene.indices(), draw.range, 1,
+                                               ViewConstants{lit[set].planes, gpuScene.vertices(),
+                                                             gpuScene.objects(), draw.object, window});
+                    });
 }
 
 // Device address of the receivers' normals in a window.
@@ -243,13 +271,14 @@ VkDeviceAddress IlluminationTextures::normalsOf(std::size_t set, uint32_t window
   return normals.address() + (set * kWindows + window) * windowBytes();
 }
 
-void IlluminationTextures::deposit(gpu::CommandList& commands, uint32_t set, uint32_t window, VkDeviceAddress ofBeams,
-                                   VkDeviceAddress texture) {
+void IlluminationTextures::deposit(gpu::CommandList& commands, uint32_t set, uint32_t window,
+                                   VkDeviceAddress ofBeams, VkDeviceAddress texture) {
   const std::size_t all = window == 0 ? lit[set].beams.size() : lit[set].beamsOfOuterWindow;
   for (std::size_t first = 0; first < all; first += kMostBeamsADispatch) {
     const auto count = uint32_t(std::min(all - first, kMostBeamsADispatch));
     commands.dispatch(depositPrograms[channels == 3], {count * kThreadsOfBeam, 1, 1},
-                      DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), normalsOf(set, window), texture, count, window},
+                      DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam),
+                                       normalsOf(set, window), texture, count, window},
                       {receiverViews[set].depths});
   }
 }
@@ -276,7 +305,8 @@ void IlluminationTextures::record(gpu::CommandList& commands, GpuScene& gpuScene
   });
 }
 
-void IlluminationTextures::shade(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& causticsLux) {
+void IlluminationTextures::shade(gpu::CommandList& commands, const ReceiverPoints& points,
+                                 const gpu::Image& causticsLux) {
   commands.pass("caustics", [&] {
     commands.render({.colors = {{&causticsLux, 0, std::nullopt}}}, [&] {
       VkDeviceAddress texture = textures.address();

@@ -8,11 +8,11 @@
 namespace nephroid {
 namespace {
 
-constexpr std::size_t kMostRays = 4096;      // beams looked at
-constexpr double kDepthTail = 0.001;         // part of the flux left before the first and past the last plane
-constexpr double kInnerWindowTail = 0.015;   // part of the flux left on each side of the inner window
-constexpr float kWindowMargin = 0.02f;       // of a window's side
-constexpr float kFlatFraction = 1e-4f;       // of a box's longest side: one this thin is a surface
+constexpr std::size_t kMostRays = 4096;     // beams looked at
+constexpr double kDepthTail = 0.001;        // part of the flux left before the first and past the last plane
+constexpr double kInnerWindowTail = 0.015;  // part of the flux left on each side of the inner window
+constexpr float kWindowMargin = 0.02f;      // of a window's side
+constexpr float kFlatFraction = 1e-4f;      // of a box's longest side: one this thin is a surface
 
 // Where a beam arrives: place along the planes and depth, with the flux that arrives there.
 struct Arrival {
@@ -28,7 +28,8 @@ struct Line {
 
 Line middleOf(const Beam& beam) {
   return {(beam.position[0] + beam.position[1] + beam.position[2]) / 3.0f,
-          normalize(beam.direction[0] + beam.direction[1] + beam.direction[2]), beam.flux.x + beam.flux.y + beam.flux.z};
+          normalize(beam.direction[0] + beam.direction[1] + beam.direction[2]),
+          beam.flux.x + beam.flux.y + beam.flux.z};
 }
 
 // m along the line where it is in the box; false if it never is.
@@ -56,7 +57,8 @@ bool isSurface(const ReceiverBox& box) {
   return std::min({size.x, size.y, size.z}) <= kFlatFraction * std::max({size.x, size.y, size.z});
 }
 
-void addArrivals(const Line& line, std::span<const ReceiverBox> boxes, const PlaneSet& set, std::vector<Arrival>& arrivals) {
+void addArrivals(const Line& line, std::span<const ReceiverBox> boxes, const PlaneSet& set,
+                 std::vector<Arrival>& arrivals) {
   float stopped = std::numeric_limits<float>::infinity();
   float enters, leaves;
   for (const ReceiverBox& box : boxes)
@@ -73,7 +75,8 @@ void addArrivals(const Line& line, std::span<const ReceiverBox> boxes, const Pla
 // The values at which `tail` and 1 - `tail` of the flux lie below.
 template <class Value>
 vec2 fluxRange(std::vector<Arrival>& arrivals, double tail, const Value& value) {
-  std::sort(arrivals.begin(), arrivals.end(), [&](const Arrival& a, const Arrival& b) { return value(a) < value(b); });
+  std::sort(arrivals.begin(), arrivals.end(),
+            [&](const Arrival& a, const Arrival& b) { return value(a) < value(b); });
   double all = 0;
   for (const Arrival& arrival : arrivals) all += arrival.flux;
   vec2 range(value(arrivals.front()), value(arrivals.back()));
@@ -124,7 +127,8 @@ std::vector<ReceiverBox> receiverBoxes(const Scene& scene) {
   return boxes;
 }
 
-PlaneSet planPlanes(std::span<const Beam> beams, std::span<const ReceiverBox> boxes, uint32_t planes, uint32_t textureSize) {
+PlaneSet planPlanes(std::span<const Beam> beams, std::span<const ReceiverBox> boxes, uint32_t planes,
+                    uint32_t textureSize) {
   PlaneSet set{};
   set.textureSize = textureSize;
   glm::dvec3 mean(0), flux(0);

@@ -18,8 +18,9 @@ struct ReceiverBox {
 
 std::vector<ReceiverBox> receiverBoxes(const Scene& scene);
 
-// Planes for these beams: across their mean direction, from the nearest to the farthest place where a box may stop them, with
-// windows about where they arrive. Of no planes when no beam meets a box.
-PlaneSet planPlanes(std::span<const Beam> beams, std::span<const ReceiverBox> boxes, uint32_t planes, uint32_t textureSize);
+// Planes for these beams: across their mean direction, from the nearest to the farthest place where a box may
+// stop them, with windows about where they arrive. Of no planes when no beam meets a box.
+PlaneSet planPlanes(std::span<const Beam> beams, std::span<const ReceiverBox> boxes, uint32_t planes,
+                    uint32_t textureSize);
 
 }  // namespace nephroid

@@ -1,8 +1,9 @@
-// The virtual planes around the receivers of one caster's light (Iwasaki 2005b, sections 3 and 4), once for C++ and GLSL.
+// The virtual planes around the receivers of one caster's light (Iwasaki 2005b, sections 3 and 4), once for
+// C++ and GLSL.
 //
-// Planes stand across the mean direction of the light, `axisW`, at equal distances. Each holds a texture of illuminance, and
-// all share a virtual camera that looks along axisW. A texture has two windows of the same number of texels: an inner one about
-// where most of the flux arrives, and an outer one about where any does.
+// Planes stand across the mean direction of the light, `axisW`, at equal distances. Each holds a texture of
+// illuminance, and all share a virtual camera that looks along axisW. A texture has two windows of the same
+// number of texels: an inner one about where most of the flux arrives, and an outer one about where any does.
 #ifndef NEPHROID_TECHNIQUES_ILLUMINATION_TEXTURES_PLANE_SET_H
 #define NEPHROID_TECHNIQUES_ILLUMINATION_TEXTURES_PLANE_SET_H
 
@@ -19,23 +20,24 @@ struct Window {
 };
 
 struct PlaneSet {
-  vec3 axisU;  // unit, along a row of texels
-  vec3 axisV;  // unit, down the rows
-  vec3 axisW;  // unit, mean direction of the light
+  vec3 axisU;        // unit, along a row of texels
+  vec3 axisV;        // unit, down the rows
+  vec3 axisW;        // unit, mean direction of the light
   float firstDepth;  // m along axisW, of the first plane
   float depthStep;   // m between planes
   uint planes;
-  uint textureSize;   // texels along a side
-  Window windows[2];  // inner, outer
+  uint textureSize;              // texels along a side
+  Window windows[2];             // inner, outer
   vec3 luxMetresSquaredPerUnit;  // flux (lm) of one unit of the textures, by channel
-  float nearestDepth;  // m along axisW, what the virtual camera sees
+  float nearestDepth;            // m along axisW, what the virtual camera sees
   float farthestDepth;
 };
 
 SHARED_FUNCTION PlaneGrid planeGrid(PlaneSet set, uint plane, uint window) {
   Window w = set.windows[window];
   PlaneGrid grid;
-  grid.corner = w.corner.x * set.axisU + w.corner.y * set.axisV + (set.firstDepth + float(plane) * set.depthStep) * set.axisW;
+  grid.corner = w.corner.x * set.axisU + w.corner.y * set.axisV +
+                (set.firstDepth + float(plane) * set.depthStep) * set.axisW;
   grid.axisU = w.texelsPerMetre * set.axisU;
   grid.axisV = w.texelsPerMetre * set.axisV;
   grid.normal = set.axisW;

@@ -8,10 +8,11 @@
 
 SHARED_BEGIN
 
-// Units of flux are whole numbers, so that sums do not depend on the order of the beams. All the flux of a set is 2^29 units:
-// there is room for what the cosines add where light crosses the planes obliquely.
+// Units of flux are whole numbers, so that sums do not depend on the order of the beams. All the flux of a
+// set is 2^29 units: there is room for what the cosines add where light crosses the planes obliquely.
 SHARED_CONSTANT float kUnitsOfAllFlux = 536870912.0f;
-// Beams farther than this from the mean direction (as a cosine, 75.5 degrees) run along the planes rather than through them.
+// Beams farther than this from the mean direction (as a cosine, 75.5 degrees) run along the planes rather
+// than through them.
 SHARED_CONSTANT float kLeastApproach = 0.25f;
 // Threads that deposit one beam.
 SHARED_CONSTANT uint kThreadsOfBeam = 8u;
@@ -19,9 +20,15 @@ SHARED_CONSTANT uint kThreadsOfBeam = 8u;
 SHARED_END
 
 #ifndef __cplusplus
-layout(buffer_reference, scalar) readonly buffer Beams { Beam beam[]; };
-layout(buffer_reference, scalar) readonly buffer ReceiverNormals { uint word[]; };
-layout(buffer_reference, scalar) buffer FluxUnits { uint units[]; };
+layout(buffer_reference, scalar) readonly buffer Beams {
+  Beam beam[];
+};
+layout(buffer_reference, scalar) readonly buffer ReceiverNormals {
+  uint word[];
+};
+layout(buffer_reference, scalar) buffer FluxUnits {
+  uint units[];
+};
 #endif
 
 SHARED_BEGIN

@@ -29,7 +29,8 @@ MediumStack TracedSource::mediaAround(const Emitter& emitter) const {
     const Object& object = scene.objects[i];
     const vec3 place = object.placement.inversePoint(emitter.position);
     const auto& [low, high] = boxes[object.mesh];
-    if (scene.isCaster(object) && glm::all(glm::greaterThanEqual(place, low)) && glm::all(glm::lessThanEqual(place, high)))
+    if (scene.isCaster(object) && glm::all(glm::greaterThanEqual(place, low)) &&
+        glm::all(glm::lessThanEqual(place, high)))
       return follower.mediaAround(emitter.position);
   }
   return {};
