@@ -45,39 +45,64 @@ void add(vec2 place, float part) {
     if (units[c] >= 1.0) atomicAdd(constants.textures.units[word + c], uint(units[c]));
 }
 
-void addSliver(vec2 a, vec2 b, vec2 c) {
-  const float peak = sortSliver(a, b, c);
-  const int steps = sliverSteps(a, c);
-  for (int i = int(thread); i < steps; i += int(kThreadsOfBeam)) {
+// Shares out the flux on texels along a line.
+void addLine(vec2 a, vec2 c, float peak, int first, int steps, float whole) {
+  for (int i = first; i < steps; i += int(kThreadsOfBeam)) {
     const float part = tentBefore(float(i + 1) / float(steps), peak) - tentBefore(float(i) / float(steps), peak);
-    add(floor(a + ((float(i) + 0.5) / float(steps)) * (c - a)), part);
+    add(floor(a + ((float(i) + 0.5) / float(steps)) * (c - a)), whole * part);
   }
 }
 
-void addTriangle(vec2 a, vec2 b, vec2 c) {
-  const vec2 lower = floor(min(min(a, b), c));
-  const vec2 upper = floor(max(max(a, b), c));
-  if (lower == upper) {
-    if (thread == 0) add(lower, 1);
-    return;
-  }
-  const vec2 end = vec2(constants.set.textureSize);
-  if (any(lessThan(upper, vec2(0))) || any(greaterThanEqual(lower, end))) return;
-  vec2 localA = a, localB = b, localC = c, base;
-  centerFootprint(localA, localB, localC, base);
-  if (isSliver(localA, localB, localC)) {
-    addSliver(a, b, c);
-    return;
-  }
-  const float perArea = 2.0 / abs(doubledArea(localA, localB, localC));
-  const vec3 slopesOfSides = sideSlopes(localA, localB, localC);
-  const vec2 last = min(upper, end - 1);
+void addTriangle(vec2 a, vec2 b, vec2 c, vec2 base, vec2 lower, vec2 upper) {
+  const float perArea = 2.0 / abs(doubledArea(a, b, c));
+  const vec3 slopesOfSides = sideSlopes(a, b, c);
+  const vec2 last = min(upper, vec2(constants.set.textureSize) - 1);
   for (float y = max(lower.y, 0) + float(thread / kBlockWidth); y <= last.y; y += float(kBlockHeight)) {
-    const TriangleRow row = triangleInRow(localA, localB, localC, slopesOfSides, y - base.y);
+    const TriangleRow row = triangleInRow(a, b, c, slopesOfSides, y - base.y);
     const float lastX = min(floor(row.last) + base.x, last.x);
     for (float x = max(floor(row.first) + base.x, 0) + float(thread % kBlockWidth); x <= lastX; x += float(kBlockWidth))
       add(vec2(x, y), triangleCoverage(row, x - base.x) * perArea);
   }
+}
+
+// Where a beam meets a plane, in texels.
+struct Footprint {
+  vec2 a, b, c;
+  bvec3 meets;  // does the corner
+};
+
+bool isInWindow(Footprint print) {
+  const vec2 end = vec2(constants.set.textureSize);
+  const vec2 lower = min(min(print.a, print.b), print.c), upper = max(max(print.a, print.b), print.c);
+  return any(print.meets) && all(greaterThanEqual(upper, vec2(0))) && all(lessThan(lower, end));
+}
+
+// What falls on few texels is shared out as a line is: `add` stands in two places only, because the threads of a software device
+// pass through all of them, whether they have anything to add there or not.
+void addFootprint(Footprint print) {
+  vec2 a = print.a, b = print.b, c = print.c, base;
+  const vec2 lower = floor(min(min(a, b), c));
+  const vec2 upper = floor(max(max(a, b), c));
+  vec2 localA = a, localB = b, localC = c;
+  centerFootprint(localA, localB, localC, base);
+  float peak = 0.5, whole = 1;
+  int first = int(thread), steps = 0;
+  bool isLine = true;
+  if (!all(print.meets)) {  // a third to each corner that is there
+    a = c = thread == 0 ? a : thread == 1 ? b : c;
+    steps = (thread == 0 ? print.meets.x : thread == 1 ? print.meets.y : thread == 2 && print.meets.z) ? 1 : 0;
+    first = 0;
+    whole = 1.0 / 3.0;
+  } else if (lower == upper) {
+    steps = 1;
+  } else if (isSliver(localA, localB, localC)) {
+    peak = sortSliver(a, b, c);
+    steps = sliverSteps(a, c);
+  } else {
+    isLine = false;
+  }
+  addLine(a, c, peak, first, steps, whole);
+  if (!isLine) addTriangle(localA, localB, localC, base, lower, upper);
 }
 
 // A corner ray in the virtual camera's frame: texels across, metres along axisW.
@@ -119,21 +144,19 @@ float receiverDepth(Line line) {
     // Where the line stands over the tangent plane, and how fast it comes nearer.
     const float ahead = seenDepth * normal.z + dot((place - texel - 0.5) / texelsPerMetre, normal.xy) - depth * normal.z;
     const float approach = normal.z - dot(line.slope / texelsPerMetre, normal.xy);
+    const float before = depth;
     depth = approach > 0.1 * normal.z ? depth + ahead / approach : seenDepth;
     depth = clamp(depth, max(set.nearestDepth, line.startDepth), set.farthestDepth);
+    if (abs(depth - before) * texelsPerMetre < 1e-4) break;
   }
   return depth;
 }
 
-void addFootprint(Line lines[3], vec3 depths) {
-  const bvec3 meets = bvec3(lines[0].meets && depths.x >= lines[0].startDepth, lines[1].meets && depths.y >= lines[1].startDepth,
-                            lines[2].meets && depths.z >= lines[2].startDepth);
-  const vec2 a = placeAt(lines[0], depths.x), b = placeAt(lines[1], depths.y), c = placeAt(lines[2], depths.z);
-  if (all(meets)) {
-    addTriangle(a, b, c);
-  } else if (thread == 0 ? meets.x : thread == 1 ? meets.y : thread == 2 && meets.z) {
-    add(floor(thread == 0 ? a : thread == 1 ? b : c), 1.0 / 3.0);
-  }
+bool meetsAt(Line line, float depth) { return line.meets && depth >= line.startDepth; }
+
+Footprint footprintAt(Line lines[3], vec3 depths) {
+  return Footprint(placeAt(lines[0], depths.x), placeAt(lines[1], depths.y), placeAt(lines[2], depths.z),
+                   bvec3(meetsAt(lines[0], depths.x), meetsAt(lines[1], depths.y), meetsAt(lines[2], depths.z)));
 }
 
 void main() {
@@ -156,17 +179,26 @@ void main() {
   }
   // Neighbouring texels may be asked for that lie a little past the border between two planes.
   const float reach = 0.5 * set.depthStep + 3 / set.windows[constants.window].texelsPerMetre;
-  for (uint plane = 0; plane < set.planes; ++plane) {
-    const float depth = set.firstDepth + float(plane) * set.depthStep;
-    firstTexel = textureStart(set, plane, constants.window, 1);
-    if (kFollowsReceivers == 0) {
-      addFootprint(lines, vec3(depth));
-      continue;
+  // On to the next plane that matters before anything is done there: neighbouring threads skip the same.
+  uint plane = 0;
+  while (plane < set.planes) {
+    Footprint print;
+    bool reaches = false;
+    for (; plane < set.planes && !reaches; ++plane) {
+      vec3 depths = vec3(set.firstDepth + float(plane) * set.depthStep);
+      reaches = true;
+      if (kFollowsReceivers != 0) {
+        // The first and the last plane have all that lies before and beyond.
+        const float low = plane == 0 ? set.nearestDepth : depths.x - reach;
+        const float high = plane == set.planes - 1 ? set.farthestDepth : depths.x + reach;
+        reaches = any(greaterThanEqual(arrivals, vec3(low))) && any(lessThanEqual(arrivals, vec3(high)));
+        depths = clamp(arrivals, low, high);
+      }
+      print = footprintAt(lines, depths);
+      reaches = reaches && isInWindow(print);
     }
-    // The first and the last plane have all that lies before and beyond.
-    const float low = plane == 0 ? set.nearestDepth : depth - reach;
-    const float high = plane == set.planes - 1 ? set.farthestDepth : depth + reach;
-    if (all(lessThan(arrivals, vec3(low))) || all(greaterThan(arrivals, vec3(high)))) continue;
-    addFootprint(lines, clamp(arrivals, low, high));
+    if (!reaches) return;
+    firstTexel = textureStart(set, plane - 1, constants.window, 1);
+    addFootprint(print);
   }
 }

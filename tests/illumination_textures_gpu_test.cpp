@@ -1,0 +1,252 @@
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "beams/deposit.h"
+#include "core/random.h"
+#include "gpu/command_list.h"
+#include "gpu/transfer.h"
+#include "gpu_fixture.h"
+#include "shaders/deposit_comp.h"
+#include "techniques/illumination_textures/shader_data.h"
+#include "techniques/registry.h"
+#include "test_meshes.h"
+
+namespace nephroid {
+namespace {
+
+constexpr uint32_t kSize = 64;
+constexpr uint32_t kPlanes = 3;
+constexpr float kFocus = 0.5f;  // m along axisW, where beamsThroughFocus meet
+constexpr double kFluxTolerance = 1e-5;
+
+// Planes at depths 0, 0.5 and 1 below a square metre, the outer window three times as wide. The flux is
+// theirs in all.
+PlaneSet planesFor(const std::vector<Beam>& beams) {
+  PlaneSet set{};
+  set.axisU = vec3(1, 0, 0);
+  set.axisV = vec3(0, 0, 1);
+  set.axisW = vec3(0, -1, 0);
+  set.depthStep = 0.5f;
+  set.planes = kPlanes;
+  set.textureSize = kSize;
+  set.windows[0] = {vec2(-0.5f), float(kSize)};
+  set.windows[1] = {vec2(-1.5f), float(kSize) / 3};
+  vec3 flux(0);
+  for (const Beam& beam : beams) flux += beam.flux;
+  set.luxMetresSquaredPerUnit = flux / kUnitsOfAllFlux;
+  set.nearestDepth = -1;
+  set.farthestDepth = 2;
+  return set;
+}
+
+// From a metre above the first plane through these places on it, toward `target` from each or straight on.
+Beam beamThrough(vec2 a, vec2 b, vec2 c, std::optional<vec3> target = std::nullopt) {
+  Beam beam{};
+  const vec2 places[] = {a, b, c};
+  for (int i = 0; i < 3; ++i) {
+    const vec3 place(places[i].x, 0, places[i].y);
+    beam.direction[i] = target ? normalize(*target - place) : vec3(0, -1, 0);
+    beam.position[i] = place - beam.direction[i];
+  }
+  beam.flux = vec3(1);
+  return beam;
+}
+
+// Beams of a millimetre to a third of a metre, none of them thin, all of whose light falls inside the inner
+// window.
+std::vector<Beam> someBeams(uint32_t count, std::optional<vec3> target = std::nullopt) {
+  Random random(3);
+  std::vector<Beam> beams;
+  for (uint32_t i = 0; i < count; ++i) {
+    const float size = 0.1f * std::pow(10.0f, -2 * random.uniform());
+    const vec2 center = 0.7f * (vec2(random.uniform(), random.uniform()) - 0.5f);
+    const float turn = 6.28f * random.uniform();
+    const auto corner = [&](float angle) {
+      return center + size * vec2(std::cos(turn + angle), std::sin(turn + angle));
+    };
+    beams.push_back(beamThrough(corner(0), corner(2.1f), corner(4), target));
+    beams.back().flux = vec3(1, 2, 0.5f) * (0.1f + random.uniform());
+  }
+  return beams;
+}
+
+class IlluminationTexturesGpuTest : public GpuTest {
+ protected:
+  // The textures as shading reads them, units of a texel side by side. Flat planes, or bent onto a surface
+  // across the light at `receiverDepth` (m along axisW).
+  std::vector<uint32_t> deposit(const std::vector<Beam>& beams, const PlaneSet& set, uint32_t channels = 1,
+                                std::optional<float> receiverDepth = std::nullopt) {
+    const gpu::Program program = gpu::createComputeProgram(device(), "deposit", shaders::deposit_comp,
+                                                           {{0, channels}, {1, receiverDepth.has_value()}});
+    const gpu::Buffer normals = gpu::upload(device(), "normals", std::vector<uint32_t>(kSize * kSize, 0));
+    const gpu::Image depths = gpu::createImage(
+        device(), "depths",
+        {.format = VK_FORMAT_D32_SFLOAT, .width = kSize, .height = kSize, .layers = kWindows});
+    const float depth =
+        (receiverDepth.value_or(0) - set.nearestDepth) / (set.farthestDepth - set.nearestDepth);
+    const gpu::Buffer from = gpu::upload(device(), "beams", beams);
+    const gpu::Buffer textures =
+        gpu::createBuffer(device(), "textures", textureStart(set, 0, kWindows, channels) * sizeof(uint32_t));
+    const auto count = uint32_t(beams.size());
+    device().submitAndWait([&](gpu::CommandList& commands) {
+      commands.fill(textures, 0);
+      for (uint32_t window = 0; window < kWindows; ++window)
+        commands.render({.colors = {}, .depth = gpu::DepthAttachment{&depths, window, depth}}, [] {});
+      commands.barrier();
+      for (uint32_t window = 0; window < kWindows; ++window)
+        commands.dispatch(
+            program, {count * kThreadsOfBeam, 1, 1},
+            DepositConstants{set, from.address(), normals.address(), textures.address(), count, window},
+            {depths});
+    });
+    return gpu::download<uint32_t>(device(), textures);
+  }
+
+  // Part of all flux that a plane's texture holds.
+  static double fluxOn(const std::vector<uint32_t>& units, const PlaneSet& set, uint32_t plane,
+                       uint32_t window) {
+    const auto first = units.begin() + textureStart(set, plane, window, 1);
+    return std::accumulate(first, first + kSize * kSize, 0.0) / double(kUnitsOfAllFlux);
+  }
+};
+
+TEST_F(IlluminationTexturesGpuTest, HoldWhatTheHostDeposits) {
+  const std::vector<Beam> beams = someBeams(300, vec3(0.1f, -3, 0));
+  const PlaneSet set = planesFor(beams);
+  for (const uint32_t channels : {1u, 3u}) {
+    const std::vector<uint32_t> units = deposit(beams, set, channels);
+    for (uint32_t window = 0; window < kWindows; ++window)
+      for (uint32_t plane = 0; plane < kPlanes; ++plane) {
+        const auto expected = depositFlux(beams, planeGrid(set, plane, window), {kSize, kSize});
+        for (uint32_t texel = 0; texel < kSize * kSize; ++texel)
+          for (uint32_t c = 0; c < channels; ++c) {
+            const double wanted = expected[texel][int(c)] / double(set.luxMetresSquaredPerUnit[int(c)]);
+            // Half a unit for each beam that may meet the texel, and what float leaves of the corners'
+            // digits.
+            ASSERT_NEAR(units[textureStart(set, plane, window, channels) + texel * channels + c], wanted,
+                        0.5 * double(beams.size()) + 1e-3 * wanted + 1e-6 * double(kUnitsOfAllFlux))
+                << "window " << window << ", plane " << plane << ", texel " << texel;
+          }
+      }
+  }
+}
+
+TEST_F(IlluminationTexturesGpuTest, HoldAllFluxBeforeAtAndPastAFocus) {
+  const std::vector<Beam> beams = someBeams(1000, vec3(0.011f, -kFocus, 0.007f));
+  const PlaneSet set = planesFor(beams);
+  const std::vector<uint32_t> units = deposit(beams, set);
+  for (uint32_t window = 0; window < kWindows; ++window)
+    for (uint32_t plane = 0; plane < kPlanes; ++plane)
+      EXPECT_NEAR(fluxOn(units, set, plane, window), 1, kFluxTolerance)
+          << "window " << window << ", plane " << plane;
+}
+
+TEST_F(IlluminationTexturesGpuTest, HoldAllFluxOfDegenerateBeams) {
+  const vec2 place(0.13f, -0.21f), other(0.33f, 0.17f);
+  const std::vector<std::vector<Beam>> cases = {{beamThrough(place, place, place)},
+                                                {beamThrough(place, other, place)},
+                                                {beamThrough(place, other, 0.5f * (place + other))},
+                                                {beamThrough(place, other, 0.501f * (place + other))}};
+  for (const std::vector<Beam>& beams : cases) {
+    const PlaneSet set = planesFor(beams);
+    const std::vector<uint32_t> units = deposit(beams, set);
+    for (uint32_t plane = 0; plane < kPlanes; ++plane)
+      EXPECT_NEAR(fluxOn(units, set, plane, 0), 1, kFluxTolerance) << "case " << &beams - cases.data();
+  }
+}
+
+TEST_F(IlluminationTexturesGpuTest, HoldTheirPartOfABeamLargerThanThem) {
+  const std::vector<Beam> beams = {beamThrough({-40, -40}, {60, -40}, {-40, 60})};
+  const PlaneSet set = planesFor(beams);
+  const std::vector<uint32_t> units = deposit(beams, set);
+  for (uint32_t window = 0; window < kWindows; ++window) {
+    const double side = kSize / set.windows[window].texelsPerMetre;
+    const double halfUnits = 0.5 * kSize * kSize / double(kUnitsOfAllFlux);
+    EXPECT_NEAR(fluxOn(units, set, 1, window), side * side / 5000, halfUnits + 1e-4 * side * side / 5000);
+  }
+}
+
+TEST_F(IlluminationTexturesGpuTest, AreTheSameBytesEachTime) {
+  const std::vector<Beam> beams = someBeams(2000, vec3(0, -kFocus, 0));
+  const PlaneSet set = planesFor(beams);
+  EXPECT_EQ(deposit(beams, set), deposit(beams, set));
+}
+
+TEST_F(IlluminationTexturesGpuTest, HoldLightWhereItArrivesWhenTheyFollowReceivers) {
+  const std::vector<Beam> beams = someBeams(300, vec3(0.1f, -3, 0));
+  PlaneSet set = planesFor(beams);
+  const float depth = 0.6f;  // nearest to the middle one of the planes
+  const std::vector<uint32_t> units = deposit(beams, set, 1, depth);
+  set.firstDepth = depth - set.depthStep;
+  for (uint32_t window = 0; window < kWindows; ++window) {
+    const auto expected = depositFlux(beams, planeGrid(set, 1, window), {kSize, kSize});
+    for (uint32_t texel = 0; texel < kSize * kSize; ++texel) {
+      const double wanted = expected[texel].x / double(set.luxMetresSquaredPerUnit.x);
+      ASSERT_NEAR(units[textureStart(set, 1, window, 1) + texel], wanted,
+                  0.5 * double(beams.size()) + 1e-3 * wanted + 1e-6 * double(kUnitsOfAllFlux))
+          << "window " << window << ", texel " << texel;
+    }
+    EXPECT_EQ(fluxOn(units, set, 0, window), 0);
+    EXPECT_EQ(fluxOn(units, set, 2, window), 0);
+  }
+}
+
+Scene glassBoxAboveFloor() {
+  Scene scene;
+  scene.materials.resize(2);
+  scene.materials[1].type = MaterialType::dielectric;
+  scene.meshes = {plane(2), box(vec3(0.3f))};
+  scene.objects.resize(2);
+  scene.objects[1].mesh = 1;
+  scene.objects[1].material = 1;
+  scene.objects[1].placement.translation = vec3(0, 0.8f, 0);
+  scene.lights.resize(1);
+  scene.lights[0].type = LightType::point;
+  scene.lights[0].position = vec3(0.2f, 3, 0.1f);
+  scene.lights[0].intensity = vec3(10);
+  return scene;
+}
+
+// What lights the floor, point by point, is asked for before and after the camera moves.
+TEST_F(IlluminationTexturesGpuTest, DoNotDependOnTheCamera) {
+  Scene scene = glassBoxAboveFloor();
+  GpuScene gpuScene(device(), scene);
+  TechniqueSettings settings;
+  settings.source = Source::traced;
+  settings.textureSize = 128;
+  Progress progress;
+  Stats stats;
+  const std::unique_ptr<Technique> technique = makeTechnique({device(), scene, settings, progress, stats});
+  const auto image = [&](const char* name) {
+    return gpu::createImage(device(), name, {.width = kSize, .height = kSize});
+  };
+  const gpu::Image positions = image("positions"), normals = image("normals"), caustics = image("caustics");
+  std::vector<vec4> points;
+  for (uint32_t i = 0; i < kSize * kSize; ++i)
+    points.emplace_back((float(i % kSize) + 0.5f) / kSize - 0.5f, 0, (float(i / kSize) + 0.5f) / kSize - 0.5f,
+                        1);
+  const auto send = [&](const gpu::Image& to, const std::vector<vec4>& texels) {
+    const auto bytes = std::as_bytes(std::span(texels));
+    gpu::uploadImage(device(), to, {{bytes.begin(), bytes.end()}});
+  };
+  send(positions, points);
+  send(normals, std::vector<vec4>(points.size(), vec4(0, 1, 0, 0)));
+
+  const auto lit = [&] {
+    technique->update(scene, gpuScene);
+    device().submitAndWait([&](gpu::CommandList& commands) {
+      technique->record(commands, gpuScene);
+      commands.pass("clear", [&] { commands.clear(caustics, vec4(0)); });
+      technique->shade(commands, {&positions, &normals}, caustics);
+    });
+    return gpu::download<vec4>(device(), caustics);
+  };
+  const std::vector<vec4> before = lit();
+  scene.camera.position = vec3(-3, 2, 1);
+  EXPECT_EQ(lit(), before);
+  EXPECT_GT(std::accumulate(before.begin(), before.end(), vec4(0)).y, 0);
+}
+
+}  // namespace
+}  // namespace nephroid
