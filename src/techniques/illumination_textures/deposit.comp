@@ -170,6 +170,8 @@ void main() {
   if (approach < kLeastApproach * length(direction)) return;
   slopes = vec2(dot(direction, set.axisU), dot(direction, set.axisV)) / approach;
   unitsOfFlux = beam.flux / set.luxMetresSquaredPerUnit;
+  // One channel stands for all that have light; the first may have none.
+  if (kChannels == 1) unitsOfFlux.x = max(unitsOfFlux.x, max(unitsOfFlux.y, unitsOfFlux.z));
 
   Line lines[3];
   vec3 arrivals = vec3(0);  // depths on the receivers
