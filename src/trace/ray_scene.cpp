@@ -87,6 +87,15 @@ RTCRayHit embreeQuery(const Ray& ray) {
   return query;
 }
 
+float volumeOf(const Mesh& mesh) {
+  if (!mesh.isClosed) return std::numeric_limits<float>::infinity();
+  double sum = 0;
+  for (const uvec3& corners : mesh.triangles)
+    sum += dot(glm::dvec3(mesh.positions[corners.x]),
+               cross(glm::dvec3(mesh.positions[corners.y]), glm::dvec3(mesh.positions[corners.z])));
+  return static_cast<float>(std::abs(sum) / 6);
+}
+
 struct DeviceRelease {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
 };
@@ -103,6 +112,7 @@ struct RayScene::Impl {
     const Mesh* mesh;
     std::vector<uint32_t> patches;
     SceneHandle scene;
+    float volume;  // m3 in the mesh's own space; infinite where it is open
   };
   struct TracedObject {
     uint32_t mesh;
@@ -136,7 +146,7 @@ struct RayScene::Impl {
     rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene.get());
-    meshes.push_back({&mesh, smoothPatches(mesh), std::move(scene)});
+    meshes.push_back({&mesh, smoothPatches(mesh), std::move(scene), volumeOf(mesh)});
   }
 
   RTCScene root() const { return top ? top.get() : meshes[0].scene.get(); }
@@ -273,6 +283,18 @@ uint32_t RayScene::patchOf(uint32_t mesh, uint32_t triangle) const {
 
 bool RayScene::isClosed(uint32_t object) const {
   return impl->meshes[impl->objects[object].mesh].mesh->isClosed;
+}
+
+float RayScene::enclosedVolume(uint32_t object) const {
+  const Impl::TracedObject& traced = impl->objects[object];
+  const float scale = traced.placement.scale;
+  return impl->meshes[traced.mesh].volume * scale * scale * scale;
+}
+
+Ray RayScene::leaving(const Hit& hit, vec3 direction) const {
+  const vec3 start =
+      hit.position + alongRayToPlane(direction, hit.flatPosition - hit.position, hit.geometricNormal);
+  return {start, direction, selfIntersectionDistance()};
 }
 
 std::size_t RayScene::replay(std::span<const Ray> rays) const {

@@ -61,6 +61,13 @@ class RayScene {
   // Whether an object's mesh bounds a volume, so that a ray inside must come out again.
   bool isClosed(uint32_t object) const;
 
+  // m3 within an object's mesh; infinite where the mesh is open, as that of water.
+  float enclosedVolume(uint32_t object) const;
+
+  // The ray that goes on along `direction` from where `hit` is on the curved surface: its line begins on the
+  // flat triangle that was traced.
+  Ray leaving(const Hit& hit, vec3 direction) const;
+
   // The bare loop every ray rate is held against: nothing but Embree's closest hit, in parallel. Returns how
   // many rays hit.
   std::size_t replay(std::span<const Ray> rays) const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "optics/curved_triangle.h"
 #include "optics/refraction.h"
 
 namespace nephroid {
@@ -25,24 +24,6 @@ vec3 facingNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
 
 }  // namespace
 
-bool MediumStack::contains(uint32_t object) const {
-  return std::find(objects.begin(), objects.begin() + size, object) != objects.begin() + size;
-}
-
-void MediumStack::enter(uint32_t object) {
-  if (size < objects.size()) objects[size++] = object;
-}
-
-void MediumStack::leave(uint32_t object) {
-  const auto first = objects.begin();
-  const auto last = first + size;
-  const auto innermost =
-      std::find(std::make_reverse_iterator(last), std::make_reverse_iterator(first), object);
-  if (innermost == std::make_reverse_iterator(first)) return;
-  std::copy(innermost.base(), last, innermost.base() - 1);
-  --size;
-}
-
 Follower::Follower(const RayScene& rayScene, std::vector<const Material*> materialOfObject)
     : rays(rayScene), materials(std::move(materialOfObject)) {}
 
@@ -61,19 +42,24 @@ float iorOf(const std::vector<const Material*>& materials, uint32_t object, uint
 
 // Light that meets a dielectric boundary goes on along `walk`. False: it is lost.
 bool crossDielectric(const std::vector<const Material*>& materials, const FollowSettings& settings,
-                     uint32_t object, uint32_t patch, vec3 normal, bool entering, Walk& walk) {
+                     const Hit& hit, float volume, vec3 normal, bool entering, Walk& walk) {
   OutgoingRay& ray = walk.ray;
+  const uint32_t object = hit.object;
+  const uint32_t patch = hit.patch;
+  // Light that leaves what it never entered, through an open mesh, was inside it all the same.
+  if (!entering && !walk.media.contains(object)) walk.media.enter(object, volume);
   MediumStack beyond = walk.media;
   if (entering) {
-    beyond.enter(object);
+    beyond.enter(object, volume);
   } else {
     beyond.leave(object);
   }
-  const float here = entering ? iorOf(materials, walk.media.top(), settings.channel)
-                              : iorOf(materials, object, settings.channel);
-  const float there = entering ? iorOf(materials, object, settings.channel)
-                               : iorOf(materials, beyond.top(), settings.channel);
-  const float eta = here / there;
+  if (walk.media.top() == beyond.top()) {  // inside another object, which fills this place
+    walk.media = beyond;
+    return true;
+  }
+  const float eta =
+      iorOf(materials, walk.media.top(), settings.channel) / iorOf(materials, beyond.top(), settings.channel);
   const float reflectance = fresnelReflectance(std::min(1.0f, -dot(ray.direction, normal)), eta);
   vec3 transmitted;
   const bool canTransmit = refractDirection(ray.direction, normal, eta, transmitted);
@@ -143,14 +129,12 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
       ray.signature = extendSignature(ray.signature, hit.object, hit.patch, Event::reflected);
     } else if (material.thinWalled) {
       crossThinWall(material, settings, hit.object, hit.patch, normal, walk);
-    } else if (!crossDielectric(materials, settings, hit.object, hit.patch, normal, entering, walk)) {
+    } else if (!crossDielectric(materials, settings, hit, rays.enclosedVolume(hit.object), normal, entering,
+                                walk)) {
       ray.flags |= kRayLost;
       return ray;
     }
-    // The triangles are flat: the ray goes on from where its line meets the one it was on.
-    const vec3 start =
-        ray.position + alongRayToPlane(ray.direction, hit.flatPosition - ray.position, hit.geometricNormal);
-    const bool goesOn = rays.intersect({start, ray.direction, rays.selfIntersectionDistance()}, hit);
+    const bool goesOn = rays.intersect(rays.leaving(hit, ray.direction), hit);
     if (goesOn && materials[hit.object]->isCaster()) {
       absorb(materials, hit.distance, walk);
       continue;
@@ -166,19 +150,7 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
 }
 
 MediumStack Follower::mediaAround(vec3 point) const {
-  const vec3 direction =
-      glm::normalize(vec3(0.3817f, 0.8531f, 0.3551f));  // along no axis or edge likely to be met
-  std::vector<int> windings(materials.size(), 0);
-  Ray ray{point, direction, 0};
-  Hit hit;
-  for (uint32_t crossing = 0; crossing < 4 * kMaximumCrossings && rays.intersect(ray, hit); ++crossing) {
-    windings[hit.object] += dot(direction, hit.geometricNormal) > 0 ? 1 : -1;
-    ray.nearDistance = hit.distance + rays.selfIntersectionDistance();
-  }
-  MediumStack media;
-  for (uint32_t object = 0; object < windings.size(); ++object)
-    if (windings[object] > 0 && materials[object]->type == MaterialType::dielectric) media.enter(object);
-  return media;
+  return nephroid::mediaAround(rays, materials, point);
 }
 
 }  // namespace nephroid

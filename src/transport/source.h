@@ -1,28 +1,15 @@
 // Where outgoing rays come from. Nothing after a source knows which one ran.
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "optics/emitter.h"
 #include "scene/scene.h"
+#include "trace/media.h"
+#include "trace/paths.h"
 #include "transport/outgoing_ray.h"
 
 namespace nephroid {
-
-// transmission: refraction alone; light that would be totally reflected is lost. all: reflection outside and
-// inside as well.
-enum class Paths { transmission, all };
-
-// Which media light is inside of, outermost first; each is an object's index.
-struct MediumStack {
-  std::array<uint32_t, 8> objects{};
-  uint32_t size = 0;
-  uint32_t top() const { return size ? objects[size - 1] : kNone; }
-  bool contains(uint32_t object) const;
-  void enter(uint32_t object);
-  void leave(uint32_t object);
-};
 
 // Light of one emitter, in one band, along one choice of reflections, through one caster.
 struct TransportQuery {

@@ -7,15 +7,6 @@
 #include "scene/mesh_checks.h"
 
 namespace nephroid {
-namespace {
-
-std::vector<const Material*> materialsOf(const Scene& scene) {
-  std::vector<const Material*> materials;
-  for (const Object& object : scene.objects) materials.push_back(&scene.materialOf(object));
-  return materials;
-}
-
-}  // namespace
 
 TracedSource::TracedSource(const Scene& sceneToTrace, const RayScene& rays)
     : scene(sceneToTrace), follower(rays, materialsOf(sceneToTrace)) {
