@@ -1,0 +1,20 @@
+// LDR-FLIP: how much two pictures differ to someone who flips between them (Andersson, Nilsson,
+// Akenine-Moller, Oskarsson, Astrom and Fairchild 2020, "FLIP: A Difference Evaluator for Alternating
+// Images").
+#pragma once
+
+#include <vector>
+
+#include "core/image.h"
+
+namespace nephroid {
+
+// The paper's viewer: 0.7 m from a screen that is 0.7 m and 3840 pixels wide.
+inline constexpr double kPixelsPerDegree = 67.0206432765823;
+
+// For each pixel 0 (no difference) to 1 (the largest). Both pictures are sRGB, RGB or RGBA (alpha is not
+// looked at), and of one size, which the caller sees to.
+std::vector<float> ldrFlip(const ByteImage& reference, const ByteImage& test,
+                           double pixelsPerDegree = kPixelsPerDegree);
+
+}  // namespace nephroid
