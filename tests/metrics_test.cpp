@@ -76,8 +76,6 @@ TEST(Metrics, TellTheReferencesNoiseFromError) {
   constexpr double kTruth = 10, kDeviation = 0.5;
   const double values = 3.0 * kSide * kSide;
   const double standardError = std::sqrt(2 / values) / 2;
-  constexpr double kTolerance =
-      4 * M_SQRT2 / (kSide * 1.7);  // four standard errors of the mean of 3 n squares
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, kDeviation);
   Image reference;

@@ -4,6 +4,7 @@
 #include "core/image_io.h"
 #include "gpu_fixture.h"
 #include "render/frame.h"
+#include "render/picture.h"
 #include "techniques/registry.h"
 #include "test_meshes.h"
 
@@ -334,6 +335,18 @@ TEST_F(Frame, APictureIsExposedLuminanceInSrgb) {
   scene.materials[0].emission = vec3(1e6f);
   layersOf(scene);
   EXPECT_EQ(picture_.bytes[0], 255);
+}
+
+// One rounding apart: the device may round its powers and fractions another way.
+TEST_F(Frame, APictureOfItsLayersIsItsPicture) {
+  Scene scene = floorScene();
+  scene.lights.push_back(pointLight({0, 1.5f, 0}, vec3(30, 12, 3)));
+  const ByteImage picture = pictureOf(layersOf(scene), scene.camera.exposure);
+  ASSERT_EQ(picture.bytes.size(), picture_.bytes.size());
+  for (std::size_t i = 0; i < picture.bytes.size(); ++i)
+    EXPECT_NEAR(picture.bytes[i], picture_.bytes[i], 1) << i;
+  EXPECT_NE(*std::min_element(picture.bytes.begin(), picture.bytes.end()),
+            *std::max_element(picture.bytes.begin(), picture.bytes.end()));
 }
 
 TEST_F(Frame, TheSameSceneGivesTheSameBytesAndAMovedLightOthers) {

@@ -20,6 +20,7 @@ using glm::floor;
 using glm::ivec2;
 using glm::ivec3;
 using glm::length;
+using glm::lessThanEqual;
 using glm::mat3;
 using glm::mat4;
 using glm::max;

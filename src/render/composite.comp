@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/frame_data.h"
 
-#include "render/tone_mapping.glsl.h"
+#include "render/tone_mapping.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kWritesLayers = false;
@@ -46,8 +46,7 @@ void main() {
     rest = rest * transmittance + min(caster.rgb, vec3(1)) * constants.background;
   }
   const vec3 total = direct + caustics + rest;
-  const vec3 shown = toneMapped(max(constants.exposure * total, vec3(0)));
-  imageStore(picture, pixel, vec4(srgbEncoded(clamp(shown, 0, 1)), 1));
+  imageStore(picture, pixel, vec4(displayed(total, constants.exposure), 1));
   if (kWritesLayers) {
     imageStore(luminance, pixel, vec4(total, 1));
     imageStore(directLuminance, pixel, vec4(direct, 1));
