@@ -84,6 +84,39 @@ TEST(AtomicFile, LeavesWhatStoodThereWhenItIsNotCommitted) {
   EXPECT_EQ(folder.fileCount(), 1u);
 }
 
+TEST(AtomicFolder, TakesThePlaceOfTheOneBefore) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a", "b"}) {
+    AtomicFolder made(folder / "report/");
+    std::ofstream(made.temporary() / name) << name;
+    made.commit();
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "report/a"));
+  EXPECT_EQ(readAll(folder / "report/b"), "b");
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(AtomicFolder, LeavesWhatStoodThereWhenItIsNotCommitted) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "report");
+  std::ofstream(folder / "report/a") << "kept";
+  {
+    const AtomicFolder made(folder / "report");
+    std::ofstream(made.temporary() / "b") << "half of it";
+  }
+  EXPECT_EQ(readAll(folder / "report/a"), "kept");
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(AtomicFolder, IsNotMadeInPlaceOfAFileOrWithoutAParent) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "kept";
+  EXPECT_THROW(AtomicFolder(folder / "file"), RuntimeFailure);
+  EXPECT_THROW(AtomicFolder(folder / "none/report"), RuntimeFailure);
+  EXPECT_THROW(checkFolderWritable(folder / "none/report"), RuntimeFailure);
+  EXPECT_NO_THROW(checkFolderWritable(folder / "report"));
+}
+
 TEST(AtomicFile, RefusesAFolderThatIsNotThere) {
   const TemporaryFolder folder;
   EXPECT_THROW(writeFileAtomically(folder / "none" / "a.txt", ""), RuntimeFailure);

@@ -85,6 +85,7 @@ TEST(Png, ReturnsWhatWasWritten) {
   const TemporaryFolder folder;
   const ByteImage image{2, 1, 4, {0, 10, 255, 255, 1, 2, 3, 128}};
   writePng(folder / "a.png", image);
+  EXPECT_EQ(readAll(folder / "a.png"), encodePng(image));
   const ByteImage back = readPng(folder / "a.png");
   EXPECT_EQ(back.width, 2u);
   EXPECT_EQ(back.height, 1u);

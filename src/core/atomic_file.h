@@ -1,4 +1,4 @@
-// A file that is there whole or not at all.
+// A file, or a folder, that is there whole or not at all.
 #pragma once
 
 #include <filesystem>
@@ -28,6 +28,29 @@ class AtomicFile {
 
 // Throws RuntimeFailure, as writing would, before the work whose result is to be written.
 void checkWritable(const std::filesystem::path& destination);
+
+// A folder of files. Write into `temporary()`, which lies beside the destination, then commit(). Without a
+// commit it is removed and what stood at the destination stays.
+class AtomicFolder {
+ public:
+  // Throws RuntimeFailure where no folder can be made there.
+  explicit AtomicFolder(const std::filesystem::path& destination);
+  ~AtomicFolder();
+  AtomicFolder(const AtomicFolder&) = delete;
+  AtomicFolder& operator=(const AtomicFolder&) = delete;
+
+  const std::filesystem::path& temporary() const { return temporary_; }
+  // In place of the folder that stood at the destination, which is removed with all that is in it. Throws
+  // RuntimeFailure where it cannot be put in place, Interrupted after Ctrl-C.
+  void commit();
+
+ private:
+  std::filesystem::path destination_;
+  std::filesystem::path temporary_;
+};
+
+// Throws RuntimeFailure, as writing would: there is no folder to put it into, or no right to.
+void checkFolderWritable(const std::filesystem::path& destination);
 
 void writeFileAtomically(const std::filesystem::path& destination, std::string_view bytes);
 

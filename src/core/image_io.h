@@ -25,6 +25,8 @@ Image readExr(const std::filesystem::path& file);
 
 // The bytes are taken as sRGB.
 void writePng(const std::filesystem::path& file, const ByteImage& image);
+// The bytes of such a file.
+std::string encodePng(const ByteImage& image);
 // As RGBA, whatever the file holds.
 ByteImage readPng(const std::filesystem::path& file);
 

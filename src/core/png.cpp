@@ -23,15 +23,21 @@ struct PngImage : png_image {
 
 }  // namespace
 
-void writePng(const std::filesystem::path& path, const ByteImage& image) {
-  AtomicFile file(path);
+std::string encodePng(const ByteImage& image) {
   PngImage png;
   png.width = image.width;
   png.height = image.height;
   png.format = image.components == 4 ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
-  if (!png_image_write_to_file(&png, file.temporary().c_str(), 0, image.bytes.data(), 0, nullptr))
-    throw RuntimeFailure("cannot write '" + path.string() + "': " + png.message);
-  file.commit();
+  std::string encoded(PNG_IMAGE_PNG_SIZE_MAX(png), '\0');
+  png_alloc_size_t size = encoded.size();
+  if (!png_image_write_to_memory(&png, encoded.data(), &size, 0, image.bytes.data(), 0, nullptr))
+    throw RuntimeFailure(std::string("cannot make a PNG: ") + png.message);
+  encoded.resize(size);
+  return encoded;
+}
+
+void writePng(const std::filesystem::path& path, const ByteImage& image) {
+  writeFileAtomically(path, encodePng(image));
 }
 
 ByteImage readPng(const std::filesystem::path& path) {
