@@ -1,5 +1,6 @@
 #include <iostream>
 #include <memory>
+#include <span>
 
 #include "command.h"
 #include "core/error.h"
@@ -26,12 +27,24 @@ void printDevices() {
   }
 }
 
+void printOmissions(const std::string& heading, std::span<const Omission> omissions) {
+  std::cout << "  " << heading << '\n';
+  for (const Omission& omission : omissions) std::cout << "    - " << omission.what << '\n';
+}
+
+void printAllOmissions() {
+  std::cout << "\nLeft out, compared with the reference\n";
+  printOmissions("by every technique", omissionsOfFrame());
+  for (const TechniqueEntry& entry : techniques()) printOmissions(entry.name, entry.omissions());
+}
+
 void printProgram() {
   std::cout << "nephroid   " NEPHROID_VERSION "\n"
             << "Embree     " NEPHROID_EMBREE_VERSION "\n"
             << "techniques " << joined(techniqueList()) << "\n"
             << "tables     " << tableCacheFolder().string() << "\n";
   printDevices();
+  printAllOmissions();
 }
 
 void runInfo(const std::filesystem::path& sceneFile) {

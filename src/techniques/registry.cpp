@@ -16,9 +16,10 @@ class NoCaustics final : public Technique {
 };
 
 constexpr TechniqueEntry kTechniques[] = {
-    {"illumination-textures", makeIlluminationTextures},
+    {"illumination-textures", makeIlluminationTextures, omissionsOfIlluminationTextures},
     {"none",
-     [](const TechniqueContext&) -> std::unique_ptr<Technique> { return std::make_unique<NoCaustics>(); }},
+     [](const TechniqueContext&) -> std::unique_ptr<Technique> { return std::make_unique<NoCaustics>(); },
+     omissionsOfNoCaustics},
 };
 
 }  // namespace

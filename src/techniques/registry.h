@@ -7,6 +7,7 @@
 
 #include "core/progress.h"
 #include "core/stats.h"
+#include "techniques/omissions.h"
 #include "techniques/settings.h"
 #include "techniques/technique.h"
 
@@ -24,6 +25,7 @@ struct TechniqueContext {
 struct TechniqueEntry {
   const char* name;
   std::unique_ptr<Technique> (*make)(const TechniqueContext& context);
+  std::span<const Omission> (*omissions)();
 };
 
 std::span<const TechniqueEntry> techniques();

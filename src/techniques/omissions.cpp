@@ -1,0 +1,94 @@
+#include "techniques/omissions.h"
+
+#include <algorithm>
+
+namespace nephroid {
+namespace {
+
+template <class Test>
+bool anyMaterial(const Scene& scene, const Test& test) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [&](const Object& object) { return test(scene.materialOf(object)); });
+}
+
+bool hasCaster(const Scene& scene) {
+  return anyMaterial(scene, [](const Material& material) { return material.isCaster(); });
+}
+
+bool hasGlass(const Scene& scene) {
+  return anyMaterial(scene,
+                     [](const Material& material) { return material.type == MaterialType::dielectric; });
+}
+
+bool hasMirror(const Scene& scene) {
+  return anyMaterial(scene, [](const Material& material) { return material.type == MaterialType::mirror; });
+}
+
+bool hasDispersion(const Scene& scene) {
+  return anyMaterial(scene, [](const Material& material) {
+    return material.type == MaterialType::dielectric && material.isDispersive();
+  });
+}
+
+bool hasLineLight(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const Light& light) { return light.type == LightType::line; });
+}
+
+bool hasMedium(const Scene& scene) {
+  return scene.medium.has_value();
+}
+
+bool hasLightAndReceiver(const Scene& scene) {
+  return !scene.lights.empty() &&
+         anyMaterial(scene, [](const Material& material) { return !material.isCaster(); });
+}
+
+bool always(const Scene&) {
+  return true;
+}
+
+}  // namespace
+
+std::span<const Omission> omissionsOfFrame() {
+  static constexpr Omission kOmissions[] = {
+      {"The view through glass: what stands behind it is seen straight through, tinted but not bent, and "
+       "glass "
+       "reflects the background alone",
+       hasGlass},
+      {"The view in mirrors: they show the background alone", hasMirror},
+      {"The air: the medium neither scatters light into shafts nor takes any away", hasMedium},
+      {"The length of line lights: each is a row of points, in its light, its shadows and its caustics",
+       hasLineLight},
+      {"Shadow edges finer than three texels of a shadow map of 1024 x 1024", hasLightAndReceiver},
+      {"Smooth edges: a pixel shows what its centre sees, not the mean over its square", always},
+  };
+  return kOmissions;
+}
+
+std::span<const Omission> omissionsOfIlluminationTextures() {
+  static constexpr Omission kOmissions[] = {
+      {"Long ways inside glass: with --paths all, most of the light reflected after the fourth surface at "
+       "which it "
+       "could be reflected or transmitted",
+       hasGlass},
+      {"The spectrum: light that disperses goes in three bands, red, green and blue, not by wavelength",
+       hasDispersion},
+      {"Light far from a caster's mean direction: what leaves it at more than 75 degrees from the mean, and "
+       "what "
+       "reaches surfaces that another receiver hides along the mean or that face away from it",
+       hasCaster},
+      {"Detail between the rays of a caster's vertices, and finer than a texel of the virtual planes",
+       hasCaster},
+  };
+  return kOmissions;
+}
+
+std::span<const Omission> omissionsOfNoCaustics() {
+  static constexpr Omission kOmissions[] = {
+      {"Caustics: light that met glass or a mirror is not drawn at all", hasCaster},
+  };
+  return kOmissions;
+}
+
+}  // namespace nephroid
