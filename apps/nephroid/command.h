@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,12 +43,15 @@ struct CommonOptions {
 void addScene(CLI::App& command, std::filesystem::path& scene);
 void addOutput(CLI::App& command, std::filesystem::path& output, const std::string& help);
 void addTime(CLI::App& command, double& time);
+void addSize(CLI::App& command, uvec2& size);  // pixels
 void addDevice(CLI::App& command, std::string& device);
 void addQuiet(CLI::App& command, bool& isQuiet);
 void addMeasuring(CLI::App& command, CommonOptions& options);
 // `isSensorKnown`: a plane may be put where the sensor is.
 void addField(CLI::App& command, const SettingField& field, TechniqueSettings& settings, bool isSensorKnown);
+// Which technique, and all that may be said of how it works; and the latter alone.
 void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown);
+void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown);
 
 // Throws, before any work is done, where `file` cannot be written, ends in none of `extensions` (none given:
 // any will do) or is the scene itself.
@@ -56,6 +60,9 @@ void checkOutput(const std::filesystem::path& file, const std::filesystem::path&
 
 // For CLI11's check(): empty where the value is one of `names`, or else what is wrong and which is nearest.
 std::function<std::string(const std::string&)> oneOf(std::vector<std::string> names);
+
+// "A<separator>B", both whole numbers; empty where it is not that.
+std::optional<uvec2> pairOf(const std::string& text, char separator);
 
 // The names of all techniques.
 std::vector<std::string> techniqueList();

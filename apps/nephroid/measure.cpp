@@ -5,7 +5,7 @@
 #include "command.h"
 #include "core/error.h"
 #include "core/image_io.h"
-#include "render/measure.h"
+#include "drawing.h"
 #include "render/technique_meter.h"
 #include "scene/load.h"
 #include "techniques/sources.h"
@@ -78,15 +78,7 @@ void runMeasure(const MeasureOptions& options) {
   }
   stats.prepareMilliseconds = preparing.milliseconds();
 
-  SensorLayer causticsLayer;
-  std::vector<double> times;
-  for (uint32_t i = 0; i < options.repeat; ++i) {
-    stats.counts.clear();
-    const Stopwatch frame;
-    causticsLayer = caustics();
-    times.push_back(frame.milliseconds());
-  }
-  stats.frameMilliseconds = median(times);
+  const SensorLayer causticsLayer = readRepeatedly(caustics, options.repeat, stats);
   if (device) stats.memoryBytes = device->memoryBytes();
 
   const SensorLayer direct = measureDirect(scene, rays, sensor, progress);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "command.h"
 #include "core/atomic_file.h"
@@ -79,6 +80,34 @@ void addTime(CLI::App& command, double& time) {
       ->capture_default_str();
 }
 
+std::optional<uvec2> pairOf(const std::string& text, char separator) {
+  std::istringstream stream(text);
+  uvec2 pair;
+  char between = 0;
+  if (text.find('-') != std::string::npos || !(stream >> pair.x >> between >> pair.y) ||
+      between != separator || stream.peek() != EOF)
+    return std::nullopt;
+  return pair;
+}
+
+void addSize(CLI::App& command, uvec2& size) {
+  constexpr uint32_t kMaximum = 16384;
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&size](const std::string& text) {
+            const std::optional<uvec2> pair = pairOf(text, 'x');
+            if (!pair || std::min(pair->x, pair->y) < 1 || std::max(pair->x, pair->y) > kMaximum)
+              throw CLI::ValidationError("--size", "'" + text +
+                                                       "' is not WIDTHxHEIGHT, such as 640x480, each 1 to " +
+                                                       std::to_string(kMaximum));
+            size = *pair;
+          },
+          "The size of the picture in pixels")
+      ->type_name("WxH")
+      ->default_str(std::to_string(size.x) + "x" + std::to_string(size.y));
+}
+
 void addDevice(CLI::App& command, std::string& device) {
   command
       .add_option("--device", device,
@@ -137,6 +166,10 @@ void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorK
       ->type_name("NAME")
       ->capture_default_str()
       ->group("Technique");
+  addTechniqueSettings(command, settings, isSensorKnown);
+}
+
+void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown) {
   addChoice(command, "--source", settings.source, kSourceNames,
             "Where the rays that leave a caster come from: a light transport table, or traced now");
   addChoice(command, "--paths", settings.paths, kPathsNames,

@@ -5,9 +5,8 @@
 #include <sstream>
 
 #include "command.h"
-#include "render/frame.h"
+#include "drawing.h"
 #include "scene/load.h"
-#include "techniques/registry.h"
 
 namespace nephroid {
 namespace {
@@ -55,32 +54,13 @@ void writePicture(Renderer& renderer, const TechniqueSettings& settings, const f
     writeExr(output, renderer.layers(), imageAttributes(settings, "nit"));
 }
 
-struct FrameTime {
-  double milliseconds = 0;
-  std::vector<PassTime> passes;
-};
-
 // Draws and writes a frame; returns the times of all its repetitions.
-std::vector<FrameTime> drawFrame(const RenderOptions& options, const FrameJob& job, gpu::Device& device,
-                                 Progress& progress, Stats& stats) {
-  const Stopwatch preparing;
-  const Scene scene = loadScene(options.scene, job.time);
-  const auto technique = makeTechnique({device, scene, options.technique, progress, stats});
-  Renderer renderer(device, scene, options.render, *technique);
-  stats.prepareMilliseconds += preparing.milliseconds();
-
-  std::vector<FrameTime> times(options.repeat);
-  progress.begin(job.output.filename().string(), options.repeat);
-  for (FrameTime& time : times) {
-    const Stopwatch frame;
-    time.passes = renderer.render(scene);
-    time.milliseconds = frame.milliseconds();
-    progress.advance();
-  }
-  progress.finish();
-  stats.memoryBytes = std::max(stats.memoryBytes, device.memoryBytes());
-  writePicture(renderer, options.technique, job.output);
-  return times;
+std::vector<FrameTime> drawJob(const RenderOptions& options, const FrameJob& job, gpu::Device& device,
+                               Progress& progress, Stats& stats) {
+  const FrameRequest request{options.scene,  job.time,       options.technique,
+                             options.render, options.repeat, job.output.filename().string()};
+  return drawFrame(request, device, progress, stats,
+                   [&](Renderer& renderer) { writePicture(renderer, options.technique, job.output); });
 }
 
 void runRender(const RenderOptions& options) {
@@ -98,44 +78,11 @@ void runRender(const RenderOptions& options) {
 
   std::vector<FrameTime> times;
   for (const FrameJob& job : jobs) {
-    std::vector<FrameTime> part = drawFrame(options, job, device, progress, stats);
+    std::vector<FrameTime> part = drawJob(options, job, device, progress, stats);
     std::move(part.begin(), part.end(), std::back_inserter(times));
   }
-  std::sort(times.begin(), times.end(),
-            [](const FrameTime& a, const FrameTime& b) { return a.milliseconds < b.milliseconds; });
-  const FrameTime& middle = times[times.size() / 2];
-  stats.frameMilliseconds = middle.milliseconds;
-  stats.passes = middle.passes;
+  addMedianFrame(std::move(times), stats);
   writeStats(options.stats, stats);
-}
-
-// "A<separator>B", both whole numbers; empty where it is not that.
-std::optional<uvec2> pairOf(const std::string& text, char separator) {
-  std::istringstream stream(text);
-  uvec2 pair;
-  char between = 0;
-  if (text.find('-') != std::string::npos || !(stream >> pair.x >> between >> pair.y) ||
-      between != separator || stream.peek() != EOF)
-    return std::nullopt;
-  return pair;
-}
-
-void addSize(CLI::App& command, uvec2& size) {
-  constexpr uint32_t kMaximum = 16384;
-  command
-      .add_option_function<std::string>(
-          "--size",
-          [&size](const std::string& text) {
-            const std::optional<uvec2> pair = pairOf(text, 'x');
-            if (!pair || std::min(pair->x, pair->y) < 1 || std::max(pair->x, pair->y) > kMaximum)
-              throw CLI::ValidationError("--size", "'" + text +
-                                                       "' is not WIDTHxHEIGHT, such as 640x480, each 1 to " +
-                                                       std::to_string(kMaximum));
-            size = *pair;
-          },
-          "The size of the picture in pixels")
-      ->type_name("WxH")
-      ->default_str(std::to_string(size.x) + "x" + std::to_string(size.y));
 }
 
 void addFrames(CLI::App& command, RenderOptions& options) {

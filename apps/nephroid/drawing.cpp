@@ -1,0 +1,54 @@
+#include "drawing.h"
+
+#include <algorithm>
+
+#include "command.h"
+#include "scene/load.h"
+#include "techniques/registry.h"
+
+namespace nephroid {
+
+std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& device, Progress& progress,
+                                 Stats& stats, const std::function<void(Renderer&)>& use) {
+  const Stopwatch preparing;
+  const Scene scene = loadScene(request.scene, request.time);
+  const auto technique = makeTechnique({device, scene, request.technique, progress, stats});
+  Renderer renderer(device, scene, request.render, *technique);
+  stats.prepareMilliseconds += preparing.milliseconds();
+
+  std::vector<FrameTime> times(request.repeat);
+  progress.begin(request.name, request.repeat);
+  for (FrameTime& time : times) {
+    const Stopwatch frame;
+    time.passes = renderer.render(scene);
+    time.milliseconds = frame.milliseconds();
+    progress.advance();
+  }
+  progress.finish();
+  stats.memoryBytes = std::max(stats.memoryBytes, device.memoryBytes());
+  use(renderer);
+  return times;
+}
+
+void addMedianFrame(std::vector<FrameTime> times, Stats& stats) {
+  std::sort(times.begin(), times.end(),
+            [](const FrameTime& a, const FrameTime& b) { return a.milliseconds < b.milliseconds; });
+  const FrameTime& middle = times[times.size() / 2];
+  stats.frameMilliseconds = middle.milliseconds;
+  stats.passes = middle.passes;
+}
+
+SensorLayer readRepeatedly(const std::function<SensorLayer()>& read, uint32_t repeat, Stats& stats) {
+  SensorLayer layer;
+  std::vector<double> times;
+  for (uint32_t i = 0; i < repeat; ++i) {
+    stats.counts.clear();
+    const Stopwatch frame;
+    layer = read();
+    times.push_back(frame.milliseconds());
+  }
+  stats.frameMilliseconds = median(times);
+  return layer;
+}
+
+}  // namespace nephroid
