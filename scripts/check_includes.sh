@@ -8,12 +8,13 @@ core
 optics core
 scene core optics
 trace core optics scene
+reference core optics scene trace
 transport core optics scene trace
 beams core optics scene transport
 gpu core
 techniques core optics scene trace transport beams gpu
 render core optics scene trace transport beams gpu techniques
-report core optics scene trace transport beams gpu techniques render
+report core optics scene trace reference transport beams gpu techniques render
 "
 wrong=0
 complain() {

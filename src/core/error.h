@@ -20,6 +20,7 @@ struct RuntimeFailure : std::runtime_error {
 // Ctrl-C: whatever was being written is thrown away.
 struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
+  using std::runtime_error::runtime_error;
 };
 
 // Of `known`, the name nearest to `name` by edit distance; empty when none is near enough to be meant.

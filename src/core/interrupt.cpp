@@ -27,6 +27,10 @@ bool isInterrupted() {
   return interrupted;
 }
 
+void acknowledgeInterrupt() {
+  interrupted = false;
+}
+
 void throwIfInterrupted() {
   if (interrupted) throw Interrupted();
 }

@@ -7,5 +7,7 @@ namespace nephroid {
 void catchInterrupts();
 bool isInterrupted();
 void throwIfInterrupted();
+// Work is not unwound but ended early, and what there is of it is kept.
+void acknowledgeInterrupt();
 
 }  // namespace nephroid

@@ -52,6 +52,13 @@ void Progress::advance(uint64_t count) {
   if (lock && now - lastDrawn_ >= kBetweenDraws) draw(done, now);
 }
 
+void Progress::show(std::string name, uint64_t done) {
+  name_ = std::move(name);
+  done_ = done;
+  const Clock::time_point now = Clock::now();
+  if (isShown_ && now - lastDrawn_ >= kBetweenDraws) draw(done, now);
+}
+
 void Progress::draw(uint64_t done, Clock::time_point now) {
   const double fraction = total_ ? std::min(1.0, double(done) / double(total_)) : 1.0;
   const double elapsed = std::chrono::duration<double>(now - start_).count();

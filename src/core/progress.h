@@ -26,6 +26,8 @@ class Progress {
   void begin(std::string name, uint64_t total);
   // `count` more parts are done. From any thread. Throws Interrupted after Ctrl-C.
   void advance(uint64_t count = 1);
+  // `done` of the parts are done, and the step has another name. Leaves Ctrl-C to the caller.
+  void show(std::string name, uint64_t done);
   // The step is over: its bar is wiped.
   void finish();
 

@@ -1,0 +1,136 @@
+#include "reference/boundary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optics/refraction.h"
+
+namespace nephroid {
+namespace {
+
+// -ln of the colour left, over the distance.
+vec3 extinctionOf(const Material& material) {
+  if (material.type != MaterialType::dielectric || material.thinWalled) return vec3(0);
+  return -glm::log(glm::max(material.attenuationColor, vec3(1e-30f))) * material.inverseAttenuationDistance();
+}
+
+// The geometric normal on the side a path comes from, and the smooth one where it is on that side too.
+struct Facing {
+  vec3 geometric;
+  vec3 smooth;
+};
+
+Facing facing(const Hit& hit, vec3 direction) {
+  const vec3 geometric = dot(direction, hit.geometricNormal) < 0 ? hit.geometricNormal : -hit.geometricNormal;
+  const vec3 smooth = dot(geometric, hit.normal) < 0 ? -hit.normal : hit.normal;
+  return {geometric, dot(direction, smooth) < 0 ? smooth : geometric};
+}
+
+}  // namespace
+
+Boundaries::Boundaries(const Scene& scene, const RayScene& rayScene)
+    : rays(rayScene),
+      materials(materialsOf(scene)),
+      airExtinction(scene.medium ? scene.medium->extinction : 0.0f) {
+  for (const Material* material : materials) extinctions.push_back(extinctionOf(*material));
+  for (const Object& object : scene.objects) isCurved.push_back(scene.meshOf(object).isCurved);
+}
+
+// A smooth normal may not send a path through the surface. Where it would, the triangle's own counts; but a
+// photon on a mesh whose triangles are said to be flat is lost, as it is in other renderers. False: it is.
+bool Boundaries::reflect(const Hit& hit, Carried carried, Path& path) const {
+  const Facing normals = facing(hit, path.direction);
+  const vec3 reflected = reflectDirection(path.direction, normals.smooth);
+  const bool isSound = dot(reflected, normals.geometric) > 0;
+  path.direction = isSound ? reflected : reflectDirection(path.direction, normals.geometric);
+  return isSound || carried == Carried::radiance || isCurved[hit.object];
+}
+
+bool Boundaries::send(const Hit& hit, const Band& band, Carried carried, Paths paths, Random& random,
+                      Path& path) const {
+  path.metCaster = true;
+  const Material& material = *materials[hit.object];
+  if (material.type == MaterialType::mirror) {
+    path.throughput *= material.color;
+    return reflect(hit, carried, path);
+  }
+  if (material.isDispersive()) path.isDispersed = true;
+  if (material.thinWalled) return crossThinWall(hit, band, carried, paths, random.uniform(), path);
+  return crossDielectric(hit, band, carried, paths, random.uniform(), path);
+}
+
+bool Boundaries::crossDielectric(const Hit& hit, const Band& band, Carried carried, Paths paths, float u,
+                                 Path& path) const {
+  const bool entering = dot(path.direction, hit.geometricNormal) < 0;
+  const float volume = rays.enclosedVolume(hit.object);
+  // What leaves an object it never entered, through an open mesh, was inside it all the same.
+  if (!entering && !path.media.contains(hit.object)) path.media.enter(hit.object, volume);
+  MediumStack beyond = path.media;
+  if (entering) {
+    beyond.enter(hit.object, volume);
+  } else {
+    beyond.leave(hit.object);
+  }
+  const uint32_t here = path.media.top();
+  const uint32_t there = beyond.top();
+  if (here == there) {  // inside another object, which fills this place
+    path.media = beyond;
+    return true;
+  }
+
+  const float eta = indexIn(here, band) / indexIn(there, band);
+  const Facing normals = facing(hit, path.direction);
+  vec3 normal = normals.smooth;
+  vec3 transmitted;
+  bool canTransmit = refractDirection(path.direction, normal, eta, transmitted);
+  if (canTransmit && dot(transmitted, normals.geometric) >= 0) {
+    normal = normals.geometric;
+    canTransmit = refractDirection(path.direction, normal, eta, transmitted);
+  }
+  const float reflectance =
+      canTransmit ? fresnelReflectance(std::min(1.0f, -dot(path.direction, normal)), eta) : 1.0f;
+  if (paths == Paths::transmission) {
+    if (!canTransmit) return false;
+    path.throughput *= 1 - reflectance;
+  } else if (u < reflectance) {
+    return reflect(hit, carried, path);
+  }
+  path.direction = transmitted;
+  path.media = beyond;
+  if (carried == Carried::radiance) path.throughput *= eta * eta;
+  return true;
+}
+
+// A sheet too thin to bend light: what both its faces let through, reflections between them included.
+bool Boundaries::crossThinWall(const Hit& hit, const Band& band, Carried carried, Paths paths, float u,
+                               Path& path) const {
+  const Material& material = *materials[hit.object];
+  const Facing normals = facing(hit, path.direction);
+  const float face = fresnelReflectance(std::min(1.0f, -dot(path.direction, normals.smooth)),
+                                        1 / indexOfRefraction(material, band));
+  const float transmitted = (1 - face) / (1 + face);
+  if (paths == Paths::transmission) {
+    path.throughput *= transmitted * material.color;
+  } else if (u < transmitted) {
+    path.throughput *= material.color;
+  } else {
+    return reflect(hit, carried, path);
+  }
+  return true;
+}
+
+vec3 Boundaries::transmittance(const Path& path, float length) const {
+  const vec3 extinction = extinctionIn(path.media.top());
+  if (extinction == vec3(0)) return vec3(1);
+  return glm::exp(-extinction * length);
+}
+
+MediumStack Boundaries::mediaAround(vec3 point) const {
+  return nephroid::mediaAround(rays, materials, point);
+}
+
+float Boundaries::indexIn(uint32_t object, const Band& band) const {
+  return object == kNone ? 1.0f : indexOfRefraction(*materials[object], band);
+}
+
+}  // namespace nephroid

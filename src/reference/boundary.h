@@ -1,0 +1,58 @@
+// What becomes of light, or of a line of sight, where it meets a caster.
+#pragma once
+
+#include "core/random.h"
+#include "reference/spectrum.h"
+#include "trace/media.h"
+#include "trace/paths.h"
+
+namespace nephroid {
+
+// flux: photons on their way from a light. radiance: a line of sight, followed against the light; radiance
+// grows by the square of the index it enters (Veach 1997, 5.2), flux does not.
+enum class Carried { flux, radiance };
+
+// A photon or a line of sight between two surfaces.
+struct Path {
+  vec3 direction{0};   // unit
+  vec3 throughput{1};  // what is left of it, without the weight of its band
+  MediumStack media;   // what it is inside of
+  bool metCaster = false;
+  bool isDispersed = false;  // its band's weight counts
+};
+
+class Boundaries {
+ public:
+  // Both must outlive this.
+  Boundaries(const Scene& scene, const RayScene& rays);
+
+  // Sends a path on from a caster: reflected or transmitted, each as often as its share, so that nothing is
+  // split. With Paths::transmission transmitted always and weighted by its share. False: it is lost.
+  bool send(const Hit& hit, const Band& band, Carried carried, Paths paths, Random& random, Path& path) const;
+
+  // The part of light that a length (m) of what the path is in lets through.
+  vec3 transmittance(const Path& path, float length) const;
+
+  bool isCaster(const Hit& hit) const { return materials[hit.object]->isCaster(); }
+  const Material& materialOf(const Hit& hit) const { return *materials[hit.object]; }
+  MediumStack mediaAround(vec3 point) const;
+  const RayScene& rayScene() const { return rays; }
+  // 1/m in an object's material, per channel; that of the air for kNone.
+  vec3 extinctionIn(uint32_t object) const { return object == kNone ? airExtinction : extinctions[object]; }
+
+ private:
+  bool crossDielectric(const Hit& hit, const Band& band, Carried carried, Paths paths, float u,
+                       Path& path) const;
+  bool crossThinWall(const Hit& hit, const Band& band, Carried carried, Paths paths, float u,
+                     Path& path) const;
+  bool reflect(const Hit& hit, Carried carried, Path& path) const;
+  float indexIn(uint32_t object, const Band& band) const;
+
+  const RayScene& rays;
+  std::vector<const Material*> materials;  // of the objects
+  std::vector<vec3> extinctions;           // of the objects
+  std::vector<bool> isCurved;              // their meshes
+  vec3 airExtinction;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,76 @@
+#include "reference/estimate.h"
+
+#include <limits>
+
+#include "core/error.h"
+
+namespace nephroid {
+namespace {
+
+template <class Function>
+void writeChannels(Image& image, const std::string& prefix, const std::vector<vec3>& values,
+                   const Function& valueOf) {
+  for (int c = 0; c < 3; ++c) {
+    std::vector<float>& channel = image.channel(prefix + "RGB"[c]);
+    for (std::size_t i = 0; i < values.size(); ++i) channel[i] = valueOf(values[i][c]);
+  }
+}
+
+void readChannels(const Image& image, const std::string& prefix, std::vector<vec3>& values) {
+  for (int c = 0; c < 3; ++c) {
+    const std::string name = prefix + "RGB"[c];
+    const std::vector<float>* channel = image.find(name);
+    if (!channel || channel->size() != values.size())
+      throw InputError("the image to go on with has no channel '" + name + "' of the size asked for");
+    for (std::size_t i = 0; i < values.size(); ++i) values[i][c] = (*channel)[i];
+  }
+}
+
+float same(float value) {
+  return value;
+}
+
+}  // namespace
+
+// Welford 1962, for the variance of the mean: v' = v (n - 1) / (n + 1) + (d / (n + 1))^2 after n passes.
+void RunningMean::add(std::span<const vec3> pass, uint32_t passes) {
+  const auto count = static_cast<float>(passes);
+  const float kept = passes > 1 ? (count - 2) / count : 0;
+  for (std::size_t i = 0; i < pass.size(); ++i) {
+    const vec3 step = (pass[i] - mean[i]) / count;
+    variance[i] = passes > 1 ? variance[i] * kept + step * step : vec3(0);
+    mean[i] += step;
+  }
+}
+
+void RunningMean::writeMean(Image& image, const std::string& prefix) const {
+  writeChannels(image, prefix, mean, same);
+}
+
+void RunningMean::writeVariance(Image& image, const std::string& prefix) const {
+  writeChannels(image, prefix, variance, same);
+}
+
+void RunningMean::writeStandardError(Image& image, const std::string& prefix) const {
+  writeChannels(image, prefix, variance, [](float value) { return std::sqrt(value); });
+}
+
+void RunningMean::readMean(const Image& image, const std::string& prefix) {
+  readChannels(image, prefix, mean);
+}
+
+void RunningMean::readVariance(const Image& image, const std::string& prefix) {
+  readChannels(image, prefix, variance);
+}
+
+double RunningMean::noise() const {
+  double errors = 0, values = 0;
+  for (std::size_t i = 0; i < mean.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      errors += std::sqrt(double(variance[i][c]));
+      values += mean[i][c];
+    }
+  return values > 0 ? errors / values : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace nephroid

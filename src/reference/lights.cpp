@@ -1,0 +1,187 @@
+#include "reference/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/sampling.h"
+#include "scene/emitters.h"
+#include "scene/mesh_checks.h"
+
+namespace nephroid {
+namespace {
+
+constexpr std::size_t kMostTargets = 32;  // casters that are aimed at one by one
+
+float luminance(vec3 color) {
+  return dot(color, vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+struct Ball {
+  vec3 center{0};
+  float radius = 0;
+};
+
+Ball ballAround(const Scene& scene, const Object& object) {
+  const Mesh& mesh = scene.meshOf(object);
+  const auto [low, high] = boundingBox(mesh);
+  const vec3 center = 0.5f * (low + high);
+  float radius = 0;
+  for (const vec3& position : mesh.positions) radius = std::max(radius, length(position - center));
+  return {object.placement.point(center), radius * object.placement.scale * 1.0001f};
+}
+
+Ball ballAround(const std::vector<Ball>& balls) {
+  if (balls.empty()) return {};
+  vec3 low = balls[0].center - balls[0].radius, high = balls[0].center + balls[0].radius;
+  for (const Ball& ball : balls) {
+    low = glm::min(low, ball.center - ball.radius);
+    high = glm::max(high, ball.center + ball.radius);
+  }
+  Ball whole{0.5f * (low + high), 0};
+  for (const Ball& ball : balls)
+    whole.radius = std::max(whole.radius, length(ball.center - whole.center) + ball.radius);
+  return whole;
+}
+
+// 1 - cosine of the half angle that a ball is seen under; 2 from inside it.
+float coneWidth(vec3 from, vec3 center, float radius) {
+  const float sineSquared = radius * radius / std::max(dot(center - from, center - from), 1e-30f);
+  if (!(sineSquared < 1)) return 2;
+  return sineSquared / (1 + std::sqrt(1 - sineSquared));
+}
+
+float coneWidth(const Light& light) {
+  return std::max(1 - std::cos(glm::radians(light.outerAngle)), 1e-7f);
+}
+
+}  // namespace
+
+Lights::Lights(const Scene& sceneOfLights, Aim aim) : scene(sceneOfLights) {
+  std::vector<Ball> objects, casters;
+  for (const Object& object : scene.objects) {
+    objects.push_back(ballAround(scene, object));
+    if (scene.isCaster(object)) casters.push_back(objects.back());
+  }
+  const Ball whole = ballAround(objects);
+  sceneCenter = whole.center;
+  sceneRadius = whole.radius;
+  if (casters.size() > kMostTargets) casters = {ballAround(casters)};
+
+  std::vector<Target> targets;
+  if (aim == Aim::everywhere) {
+    targets = {{sceneCenter, std::numeric_limits<float>::infinity()}};
+  } else {
+    for (const Ball& ball : casters) targets.push_back({ball.center, ball.radius});
+  }
+  for (uint32_t light = 0; light < scene.lights.size(); ++light) addShares(light, targets);
+  firstShare.push_back(uint32_t(shares.size()));
+
+  float sum = 0;
+  for (const Share& share : shares) sum += share.probability;
+  float cumulative = 0;
+  for (Share& share : shares) {
+    share.probability /= sum;
+    share.cumulative = cumulative += share.probability;
+  }
+}
+
+// Photons by the flux each target could receive at most.
+void Lights::addShares(uint32_t index, const std::vector<Target>& targets) {
+  firstShare.push_back(uint32_t(shares.size()));
+  const Light& light = scene.lights[index];
+  const bool isSpot = light.type == LightType::spot;
+  float coneFlux = 0;
+  for (Target target : targets) {
+    float flux = 0;
+    if (light.type == LightType::directional) {
+      target.radius = std::min(target.radius, sceneRadius);
+      flux = luminance(light.illuminance) * kPi * target.radius * target.radius;
+    } else {
+      const float width = coneWidth(position(index, 0.5f), target.center, target.radius);
+      if (isSpot && width > coneWidth(light)) {
+        coneFlux = luminance(light.intensity) * 2 * kPi * coneWidth(light);
+        continue;
+      }
+      flux = luminance(light.intensity) * 2 * kPi * width;
+    }
+    if (flux > 0) shares.push_back({index, target, flux, 0});
+  }
+  if (coneFlux > 0) shares.push_back({index, {light.position, 0, true}, coneFlux, 0});
+}
+
+uint32_t Lights::count() const {
+  return uint32_t(scene.lights.size());
+}
+
+bool Lights::isDirectional(uint32_t light) const {
+  return scene.lights[light].type == LightType::directional;
+}
+
+vec3 Lights::position(uint32_t index, float u) const {
+  const Light& light = scene.lights[index];
+  return light.type == LightType::line ? glm::mix(light.position, light.end, u) : light.position;
+}
+
+vec3 Lights::intensity(const Light& light, vec3 direction) const {
+  if (light.type != LightType::spot) return light.intensity;
+  return emitterPower(emittersOf(light)[0], direction);
+}
+
+Illumination Lights::illumination(uint32_t index, vec3 point, float u) const {
+  const Light& light = scene.lights[index];
+  if (light.type == LightType::directional)
+    return {light.direction, std::numeric_limits<float>::infinity(), light.illuminance};
+  const vec3 offset = point - position(index, u);
+  const float distance = length(offset);
+  const vec3 direction = offset / distance;
+  return {direction, distance, intensity(light, direction) / (distance * distance)};
+}
+
+EmittedPhoton Lights::emit(float choice, float along, vec2 at) const {
+  const auto chosen = std::upper_bound(shares.begin(), shares.end() - 1, choice,
+                                       [](float u, const Share& share) { return u < share.cumulative; });
+  const Light& light = scene.lights[chosen->light];
+  if (light.type == LightType::directional) return emitDirectional(*chosen, at);
+  return emitFromPoint(*chosen, position(chosen->light, along), at);
+}
+
+EmittedPhoton Lights::emitDirectional(const Share& share, vec2 at) const {
+  const Light& light = scene.lights[share.light];
+  const mat3 frame = frameAround(light.direction);
+  const vec2 disc = share.target.radius * sampleDisc(at);
+  const vec3 through = share.target.center + frame[0] * disc.x + frame[1] * disc.y;
+  float density = 0;  // 1/m2, of all the targets that it may have been meant for
+  for (uint32_t i = firstShare[share.light]; i < firstShare[share.light + 1]; ++i) {
+    const Target& target = shares[i].target;
+    const vec3 offset = through - target.center;
+    const vec3 aside = offset - dot(offset, light.direction) * light.direction;
+    const float radiusSquared = target.radius * target.radius;
+    if (dot(aside, aside) <= radiusSquared * 1.00001f)
+      density += shares[i].probability / (kPi * radiusSquared);
+  }
+  const float back = dot(through - sceneCenter, light.direction) + 1.01f * sceneRadius;
+  return {through - back * light.direction, light.direction, light.illuminance / density, share.light};
+}
+
+EmittedPhoton Lights::emitFromPoint(const Share& share, vec3 origin, vec2 at) const {
+  const Light& light = scene.lights[share.light];
+  const auto widthOf = [&](const Target& target) {
+    return target.isCone ? coneWidth(light) : coneWidth(origin, target.center, target.radius);
+  };
+  const auto axisOf = [&](const Target& target) {
+    if (target.isCone) return light.direction;
+    const vec3 offset = target.center - origin;
+    return dot(offset, offset) > 0 ? normalize(offset) : vec3(0, 0, 1);
+  };
+  const vec3 direction = normalize(frameAround(axisOf(share.target)) * sampleCone(at, widthOf(share.target)));
+  float density = 0;  // 1/sr, of all the targets that it may have been meant for
+  for (uint32_t i = firstShare[share.light]; i < firstShare[share.light + 1]; ++i) {
+    const float width = widthOf(shares[i].target);
+    const vec3 aside = direction - axisOf(shares[i].target);  // 1 - cosine is half its square
+    if (i == uint32_t(&share - shares.data()) || width >= 2 || 0.5f * dot(aside, aside) <= width)
+      density += shares[i].probability * coneDensity(width);
+  }
+  return {origin, direction, intensity(light, direction) / density, share.light};
+}
+
+}  // namespace nephroid

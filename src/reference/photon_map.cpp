@@ -1,0 +1,40 @@
+#include "reference/photon_map.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace nephroid {
+
+PhotonMap::PhotonMap(std::vector<StoredPhoton> photons, float cell) : inverseCell(1 / cell), low(0), high(0) {
+  if (photons.empty()) return;
+  low = high = photons[0].position;
+  for (const StoredPhoton& photon : photons) {
+    low = glm::min(low, photon.position);
+    high = glm::max(high, photon.position);
+  }
+  // Cells are numbered by integers, and there is nothing to gain from more of them than photons along an
+  // axis.
+  const vec3 size = high - low, farthest = glm::max(glm::abs(low), glm::abs(high));
+  const float most = std::max({size.x, size.y, size.z});
+  inverseCell = std::min({inverseCell, 4096.0f / std::max(most, 1e-20f),
+                          1e9f / std::max({farthest.x, farthest.y, farthest.z, 1e-20f})});
+
+  firstOfBucket.assign(std::bit_ceil(photons.size() + 1) + 1, 0);
+  std::vector<uint32_t> buckets(photons.size());
+  for (std::size_t i = 0; i < photons.size(); ++i)
+    ++firstOfBucket[(buckets[i] = bucketOf(cellOf(photons[i].position))) + 1];
+  for (std::size_t bucket = 1; bucket < firstOfBucket.size(); ++bucket)
+    firstOfBucket[bucket] += firstOfBucket[bucket - 1];
+  std::vector<uint32_t> next(firstOfBucket.begin(), firstOfBucket.end() - 1);
+  sorted.resize(photons.size());
+  for (std::size_t i = 0; i < photons.size(); ++i) sorted[next[buckets[i]]++] = photons[i];
+}
+
+// Teschner et al. 2003.
+uint32_t PhotonMap::bucketOf(Cell cell) const {
+  const uint32_t mixed =
+      uint32_t(cell.x) * 73856093u ^ uint32_t(cell.y) * 19349663u ^ uint32_t(cell.z) * 83492791u;
+  return (mixed ^ mixed >> 15) & uint32_t(firstOfBucket.size() - 2);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,130 @@
+#include "reference/photons.h"
+
+#include <algorithm>
+
+namespace nephroid {
+namespace {
+
+// Encounters of a photon that is trapped by total reflection or between mirrors, and what is left of one that
+// is not worth following.
+constexpr uint32_t kMostEncounters = 4096;
+constexpr float kLeastThroughput = 1e-7f;
+
+float largest(vec3 v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+}  // namespace
+
+struct PhotonTracer::Photon {
+  Path path;
+  Ray ray;
+  vec3 emitted{0};  // lm
+  uint32_t band = 0;
+  bool comesFromAfar = false;  // and has met nothing yet, so that no air has weakened it
+  Hit hit;
+  uint32_t encounters = 0;
+  vec3 flux() const { return emitted * path.throughput; }
+};
+
+FluxLedger& FluxLedger::operator+=(const FluxLedger& other) {
+  emitted += other.emitted;
+  received += other.received;
+  absorbed += other.absorbed;
+  escaped += other.escaped;
+  lost += other.lost;
+  return *this;
+}
+
+PhotonPass::PhotonPass(const Scene& scene, Spectrum spectrum, uint64_t passSeed, uint64_t passIndex,
+                       uint32_t count)
+    : PhotonPass(scene, spectrum, passSeed, passIndex, count, randomOf(passSeed, passIndex, ~uint64_t{0})) {}
+
+PhotonPass::PhotonPass(const Scene& scene, Spectrum spectrum, uint64_t passSeed, uint64_t passIndex,
+                       uint32_t count, Random random)
+    : seed(passSeed),
+      index(passIndex),
+      photons(count),
+      bands(chooseBands(scene, spectrum, random)),
+      places(random),
+      firstChoice(random.uniform()) {}
+
+PhotonTracer::PhotonTracer(const Scene& scene, const Boundaries& sceneBoundaries, const Lights& sceneLights,
+                           Paths followed)
+    : boundaries(sceneBoundaries), lights(sceneLights), paths(followed) {
+  for (uint32_t light = 0; light < scene.lights.size(); ++light)
+    mediaOfLights.push_back(
+        lights.isDirectional(light) ? MediumStack{} : boundaries.mediaAround(lights.position(light, 0.5f)));
+}
+
+FluxLedger PhotonTracer::trace(const PhotonPass& pass, uint32_t first, uint32_t last,
+                               PhotonVisitor& visitor) const {
+  FluxLedger ledger;
+  for (uint32_t index = first; index < last; ++index) {
+    Random random = randomOf(pass.seed, pass.index, index);
+    Photon photon = emit(pass, index, random);
+    ledger.emitted += glm::dvec3(photon.emitted);
+    while (fly(random, photon, visitor, ledger) && meetCaster(pass, random, photon, ledger)) {
+    }
+  }
+  return ledger;
+}
+
+PhotonTracer::Photon PhotonTracer::emit(const PhotonPass& pass, uint32_t index, Random& random) const {
+  const float choice = (float(index) + pass.firstChoice) / float(pass.photons);
+  const EmittedPhoton emitted = lights.emit(choice, random.uniform(), pass.places[index]);
+  Photon photon;
+  photon.emitted = emitted.flux / float(pass.photons);
+  photon.path.direction = emitted.direction;
+  photon.path.media = mediaOfLights[emitted.light];
+  photon.ray = {emitted.origin, emitted.direction};
+  photon.comesFromAfar = lights.isDirectional(emitted.light);
+  if (pass.bands.size() > 1) photon.band = uint32_t(random.uniform() * float(pass.bands.size()));
+  return photon;
+}
+
+// To the next surface. False: it ends there, or nowhere.
+bool PhotonTracer::fly(Random& random, Photon& photon, PhotonVisitor& visitor, FluxLedger& ledger) const {
+  Path& path = photon.path;
+  Hit& hit = photon.hit;
+  const bool isHit = boundaries.rayScene().intersect(photon.ray, hit);
+  PhotonSegment segment;
+  segment.ray = photon.ray;
+  segment.length = isHit ? hit.distance : std::numeric_limits<float>::infinity();
+  segment.flux = photon.flux();
+  segment.isInAir = path.media.top() == kNone;
+  if (!photon.comesFromAfar) segment.extinction = boundaries.extinctionIn(path.media.top());
+  segment.endsOnReceiver = isHit && !boundaries.isCaster(hit);
+  segment.isDispersed = path.isDispersed;
+  segment.band = photon.band;
+  segment.sample = random.uniform();
+  if (path.metCaster) visitor.segment(segment);
+  if (segment.extinction != vec3(0)) path.throughput *= glm::exp(-segment.extinction * segment.length);
+  const vec3 flux = photon.flux();
+  ledger.absorbed += glm::dvec3(segment.flux) - glm::dvec3(flux);
+  if (segment.endsOnReceiver && path.metCaster) visitor.landing(segment, hit, flux);
+  if (segment.endsOnReceiver) ledger.received += glm::dvec3(flux);
+  if (!isHit) ledger.escaped += glm::dvec3(flux);
+  photon.comesFromAfar = false;
+  return isHit && !segment.endsOnReceiver;
+}
+
+// On from a caster. False: the photon is lost.
+bool PhotonTracer::meetCaster(const PhotonPass& pass, Random& random, Photon& photon,
+                              FluxLedger& ledger) const {
+  const vec3 arriving = photon.flux();
+  const bool goesOn =
+      boundaries.send(photon.hit, pass.bands[photon.band], Carried::flux, paths, random, photon.path);
+  const vec3 leaving = photon.flux();
+  const bool isMirror = boundaries.materialOf(photon.hit).type == MaterialType::mirror;
+  (isMirror ? ledger.absorbed : ledger.lost) += glm::dvec3(arriving) - glm::dvec3(leaving);
+  if (!goesOn || ++photon.encounters > kMostEncounters ||
+      largest(photon.path.throughput) < kLeastThroughput) {
+    ledger.lost += glm::dvec3(leaving);
+    return false;
+  }
+  photon.ray = boundaries.rayScene().leaving(photon.hit, photon.path.direction);
+  return true;
+}
+
+}  // namespace nephroid

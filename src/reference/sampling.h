@@ -1,0 +1,106 @@
+// Points and directions, uniformly distributed, from numbers in [0, 1).
+#pragma once
+
+#include <cmath>
+
+#include "core/random.h"
+#include "core/shared_language.h"
+
+namespace nephroid {
+
+inline constexpr float kPi = 3.14159265358979f;
+
+// Two unit vectors that stand on `axis` and on each other (Duff et al. 2017).
+inline mat3 frameAround(vec3 axis) {
+  const float sign = std::copysign(1.0f, axis.z);
+  const float a = -1 / (sign + axis.z);
+  const float b = axis.x * axis.y * a;
+  return {vec3(1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x),
+          vec3(b, sign + axis.y * axis.y * a, -axis.y), axis};
+}
+
+// Uniform in the directions within a cone about +z, of which `width` is 1 - cosine of its half angle: 2 for
+// all.
+inline vec3 sampleCone(vec2 u, float width) {
+  const float drop = width * u.x;  // 1 - cosine
+  const float sine = std::sqrt(std::max(drop * (2 - drop), 0.0f));
+  const float turn = 2 * kPi * u.y;
+  return {sine * std::cos(turn), sine * std::sin(turn), 1 - drop};
+}
+
+// Per steradian.
+inline float coneDensity(float width) {
+  return 1 / (2 * kPi * width);
+}
+
+// Uniform in the unit disc; neighbours stay neighbours (Shirley and Chiu 1997).
+inline vec2 sampleDisc(vec2 u) {
+  const vec2 p = 2.0f * u - 1.0f;
+  if (p.x == 0 && p.y == 0) return vec2(0);
+  if (std::abs(p.x) > std::abs(p.y)) {
+    const float turn = kPi / 4 * (p.y / p.x);
+    return p.x * vec2(std::cos(turn), std::sin(turn));
+  }
+  const float turn = kPi / 2 - kPi / 4 * (p.x / p.y);
+  return p.y * vec2(std::cos(turn), std::sin(turn));
+}
+
+// A distance along a ray of `length` (may be infinite), with a density that falls as light does in air of
+// this extinction (1/m); uniform where there is none.
+struct DistanceSample {
+  float distance = 0;  // m
+  float density = 0;   // 1/m
+};
+
+inline DistanceSample sampleExtinction(float u, float extinction, float length) {
+  const float depth = extinction * length;
+  if (depth < 1e-4f) return {u * length, 1 / length};
+  const float scattered = -std::expm1(-depth);
+  const float distance = std::min(-std::log1p(-u * scattered) / extinction, length);
+  return {distance, extinction * std::exp(-extinction * distance) / scattered};
+}
+
+// A distance along a ray with a density as the inverse square of that to `point` (Kulla and Fajardo 2012).
+inline DistanceSample sampleEquiangular(float u, vec3 origin, vec3 direction, float length, vec3 point) {
+  const float nearest = dot(point - origin, direction);  // m along the ray
+  const float height = std::max(glm::length(point - origin - nearest * direction), 1e-6f);
+  const float first = std::atan2(-nearest, height);
+  const float last = std::isinf(length) ? kPi / 2 : std::atan2(length - nearest, height);
+  const float offset = height * std::tan(glm::mix(first, last, u));
+  const float density = height / ((last - first) * (height * height + offset * offset));
+  return {glm::clamp(nearest + offset, 0.0f, length), density};
+}
+
+// Random numbers of one item of a pass: the same whichever thread asks, and unlike those of its neighbours.
+inline Random randomOf(uint64_t seed, uint64_t pass, uint64_t item) {
+  uint64_t mixed = seed;
+  for (const uint64_t word : {pass, item}) {  // splitmix64 (Steele et al. 2014)
+    mixed = (mixed ^ word) + 0x9e3779b97f4a7c15ULL;
+    mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebULL;
+    mixed ^= mixed >> 31;
+  }
+  return Random(mixed, item);
+}
+
+// Points of the plane-filling sequence R2 (Roberts 2018), shifted at random: each is uniform, all together
+// even.
+class EvenPoints {
+ public:
+  explicit EvenPoints(Random& random) : shift{words(random), words(random)} {}
+  vec2 operator[](uint64_t index) const {
+    return {toUnit(shift[0] + index * 0xc13fa9a902a6328fULL),
+            toUnit(shift[1] + index * 0x91e10da5c79e7b1cULL)};
+  }
+
+ private:
+  static uint64_t words(Random& random) {
+    const uint64_t high = random.next();
+    return high << 32 | random.next();
+  }
+  static float toUnit(uint64_t word) { return static_cast<float>(word >> 40) * 0x1p-24f; }
+
+  uint64_t shift[2];
+};
+
+}  // namespace nephroid

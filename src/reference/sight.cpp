@@ -1,0 +1,170 @@
+#include "reference/sight.h"
+
+#include <algorithm>
+
+#include "optics/phase.h"
+
+namespace nephroid {
+namespace {
+
+constexpr uint32_t kMostEncounters = 1024;
+constexpr float kLeastThroughput = 1e-5f;
+
+// Of a photon, as a line of sight in its own band finds it. Where both were dispersed, they have to have been
+// so in the same band, which one in as many is.
+vec3 fluxInBand(const StoredPhoton& photon, bool isSightDispersed, uint32_t band,
+                const std::vector<Band>& bands) {
+  if (photon.isDispersed && isSightDispersed)
+    return photon.band == band ? photon.flux * bands[band].weight * float(bands.size()) : vec3(0);
+  if (photon.isDispersed) return photon.flux * bands[photon.band].weight;
+  return isSightDispersed ? photon.flux * bands[band].weight : photon.flux;
+}
+
+vec4 texel(const Texture& texture, int x, int y) {
+  const auto wrapped = [](int i, uint32_t size) {
+    const int n = static_cast<int>(size);
+    return static_cast<std::size_t>(((i % n) + n) % n);
+  };
+  return texture.texels[wrapped(y, texture.height) * texture.width + wrapped(x, texture.width)];
+}
+
+vec3 sampleBilinear(const Texture& texture, vec2 coordinate) {
+  const vec2 place = (coordinate - glm::floor(coordinate)) * vec2(texture.width, texture.height) - 0.5f;
+  const vec2 first = glm::floor(place);
+  const vec2 after = place - first;
+  const int x = static_cast<int>(first.x), y = static_cast<int>(first.y);
+  const vec4 upper = glm::mix(texel(texture, x, y), texel(texture, x + 1, y), after.x);
+  const vec4 lower = glm::mix(texel(texture, x, y + 1), texel(texture, x + 1, y + 1), after.x);
+  return vec3(glm::mix(upper, lower, after.y));
+}
+
+}  // namespace
+
+vec3 diffuseReflectance(const Scene& scene, const Hit& hit) {
+  const Object& object = scene.objects[hit.object];
+  const Material& material = scene.materialOf(object);
+  const Mesh& mesh = scene.meshOf(object);
+  if (material.colorTexture == kNone || mesh.texcoords.empty()) return material.color;
+  const uvec3& corners = mesh.triangles[hit.triangle];
+  const vec2 coordinate = mesh.texcoords[corners.x] * (1 - hit.barycentric.x - hit.barycentric.y) +
+                          mesh.texcoords[corners.y] * hit.barycentric.x +
+                          mesh.texcoords[corners.z] * hit.barycentric.y;
+  return material.color * sampleBilinear(scene.textures[material.colorTexture], coordinate);
+}
+
+Sight::Sight(const Scene& sceneToSee, const Boundaries& sceneBoundaries, const Lights& sceneLights)
+    : scene(sceneToSee), boundaries(sceneBoundaries), lights(sceneLights) {}
+
+vec3 Sight::View::weight(const PassLight& light) const {
+  return path.isDispersed ? path.throughput * light.bands[band].weight : path.throughput;
+}
+
+Seen Sight::look(const Ray& ray, const MediumStack& media, const PassLight& light, Random& random) const {
+  View view;
+  view.ray = ray;
+  view.path.direction = ray.direction;
+  view.path.media = media;
+  if (light.bands.size() > 1) view.band = uint32_t(random.uniform() * float(light.bands.size()));
+  Seen seen;
+  Hit hit;
+  for (uint32_t encounter = 0; encounter < kMostEncounters; ++encounter) {
+    const bool isHit = boundaries.rayScene().intersect(view.ray, hit);
+    const float length = isHit ? hit.distance : std::numeric_limits<float>::infinity();
+    if (scene.medium && view.path.media.top() == kNone) seen.shafts += scattered(view, length, light, random);
+    view.path.throughput *= boundaries.transmittance(view.path, length);
+    if (!isHit) {
+      seen.rest += view.weight(light) * scene.environment.background;
+      return seen;
+    }
+    view.travelled += length;
+    if (!boundaries.isCaster(hit)) {
+      lookAtReceiver(view, hit, light, random, seen);
+      return seen;
+    }
+    boundaries.send(hit, light.bands[view.band], Carried::radiance, Paths::all, random, view.path);
+    const vec3& left = view.path.throughput;
+    if (std::max({left.x, left.y, left.z}) < kLeastThroughput) return seen;
+    view.ray = boundaries.rayScene().leaving(hit, view.path.direction);
+  }
+  return seen;
+}
+
+void Sight::lookAtReceiver(const View& view, const Hit& hit, const PassLight& light, Random& random,
+                           Seen& seen) const {
+  LitPoint point;
+  point.position = hit.flatPosition;
+  point.geometricNormal =
+      dot(view.ray.direction, hit.geometricNormal) < 0 ? hit.geometricNormal : -hit.geometricNormal;
+  point.normal = dot(hit.normal, point.geometricNormal) < 0 ? -hit.normal : hit.normal;
+  point.medium = view.path.media.top();
+  point.clearance = boundaries.rayScene().selfIntersectionDistance();
+  const vec3 weight = view.weight(light);
+  const vec3 reflected = diffuseReflectance(scene, hit) / kPi;  // 1/sr
+  for (uint32_t source = 0; source < lights.count(); ++source)
+    seen.direct += weight * reflected * directIlluminance(boundaries, lights, source, point, random);
+  seen.caustics += view.path.throughput * reflected * gather(view, hit, point.geometricNormal, light);
+  seen.rest += weight * (reflected * scene.environment.ambient + boundaries.materialOf(hit).emission);
+}
+
+// lux, with the weight of bands, by the photons on a disc (Hachisuka et al. 2008; Epanechnikov's kernel).
+vec3 Sight::gather(const View& view, const Hit& hit, vec3 normal, const PassLight& light) const {
+  const float radius = std::min(light.surfaceRadius * view.travelled, light.largestRadius);
+  vec3 sum(0);
+  light.onSurfaces.around(hit.flatPosition, radius, [&](const StoredPhoton& photon, float squared) {
+    if (photon.object != hit.object || dot(photon.direction, normal) < 0.3f) return;
+    sum +=
+        fluxInBand(photon, view.path.isDispersed, view.band, light.bands) * (1 - squared / (radius * radius));
+  });
+  return sum * (2 / (kPi * radius * radius));
+}
+
+float Sight::phase(float cosine) const {
+  static constexpr uint32_t kTypes[] = {kPhaseIsotropic, kPhaseHenyeyGreenstein, kPhaseNishita};
+  return phaseFunction(kTypes[static_cast<std::size_t>(scene.medium->phase)], scene.medium->g, cosine);
+}
+
+// Light scattered once, in the air of the ray's next `length` (m).
+vec3 Sight::scattered(const View& view, float length, const PassLight& light, Random& random) const {
+  const float scattering = scene.medium->extinction * scene.medium->albedo;  // 1/m
+  if (scattering <= 0) return vec3(0);
+  vec3 sum(0);
+  for (uint32_t source = 0; source < lights.count(); ++source)
+    sum += view.weight(light) * scatteredFromLight(view, length, source, random);
+  sum += view.path.throughput * scatteredFromCasters(view, length, light, random);
+  return scattering * sum;
+}
+
+vec3 Sight::scatteredFromLight(const View& view, float length, uint32_t source, Random& random) const {
+  const float extinction = scene.medium->extinction;
+  const float along = random.uniform();
+  const float u = random.uniform();
+  const bool isDirectional = lights.isDirectional(source);
+  const DistanceSample sample = isDirectional ? sampleExtinction(u, extinction, length)
+                                              : sampleEquiangular(u, view.ray.origin, view.ray.direction,
+                                                                  length, lights.position(source, along));
+  const vec3 point = view.ray.origin + sample.distance * view.ray.direction;
+  const Illumination illumination = lights.illumination(source, point, along);
+  if (illumination.illuminance == vec3(0) || !(sample.density > 0)) return vec3(0);
+  if (!isLit(boundaries.rayScene(), illumination, point, 0)) return vec3(0);
+  const float onTheWay = sample.distance + (isDirectional ? 0 : illumination.distance);  // m
+  return illumination.illuminance * phase(-dot(illumination.direction, view.ray.direction)) *
+         std::exp(-extinction * onTheWay) / sample.density;
+}
+
+vec3 Sight::scatteredFromCasters(const View& view, float length, const PassLight& light,
+                                 Random& random) const {
+  const float extinction = scene.medium->extinction;
+  const DistanceSample sample = sampleExtinction(random.uniform(), extinction, length);
+  const float radius =
+      std::min(light.airRadius * (view.travelled + sample.distance), 3 * light.largestRadius);
+  vec3 sum(0);
+  const vec3 point = view.ray.origin + sample.distance * view.ray.direction;
+  light.inAir.around(point, radius, [&](const StoredPhoton& photon, float squared) {
+    sum += fluxInBand(photon, view.path.isDispersed, view.band, light.bands) *
+           (phase(-dot(photon.direction, view.ray.direction)) * (1 - squared / (radius * radius)));
+  });
+  return sum * (15 / (8 * kPi * radius * radius * radius) * std::exp(-extinction * sample.distance) /
+                sample.density);
+}
+
+}  // namespace nephroid

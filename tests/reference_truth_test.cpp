@@ -1,0 +1,96 @@
+// Photons counted here against photons counted elsewhere, and against exact mappings.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/image_io.h"
+#include "reference/sensor.h"
+#include "scene/load.h"
+#include "shared_data.h"
+
+namespace nephroid {
+namespace {
+
+struct Case {
+  const char* scene;
+  const char* answer;
+  Paths paths;
+  double spread;  // RMS of the answer's standard error over its mean
+  // A scanned mesh: what its vertices' normals bend is not defined to the last digit, so flux alone is
+  // compared.
+  bool isFromFile = false;
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.answer;
+}
+
+class ReferenceTruth : public testing::TestWithParam<Case> {};
+
+TEST_P(ReferenceTruth, IsMetWithinBothSpreads) {
+  const Case& wanted = GetParam();
+  const std::filesystem::path folder = sharedData() / "truth";
+  if (!std::filesystem::exists(folder / wanted.answer)) GTEST_SKIP() << "no " << folder / wanted.answer;
+  const Scene scene = loadScene(folder / (std::string(wanted.scene) + ".toml"));
+  const Image answer = readPfm(folder / wanted.answer);
+  const RayScene rays(scene);
+  ReferenceSettings settings;
+  settings.paths = wanted.paths;
+  settings.photons = 1 << 16;
+  ReferenceSensor sensor(scene, rays, scene.sensors.at(0), settings);
+  Progress progress;
+  refine(sensor, {.passes = 24}, progress);
+  const Image ours = sensor.image();
+
+  const std::vector<float>& truth = *answer.find("G");
+  const std::vector<float>& counted = *ours.find("caustics.G");
+  const std::vector<float>& variance = *ours.find("caustics.variance.G");
+  ASSERT_EQ(counted.size(), truth.size());
+  double mean = 0;
+  for (const float value : truth) mean += double(value) / double(truth.size());
+  // A counter's variance is in proportion to what it counts: that of a texel follows from the spread.
+  const double variancePerLux = wanted.spread * wanted.spread * mean;
+  double difference = 0, differenceVariance = 0, squares = 0;
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double both = double(variance[i]) + variancePerLux * double(truth[i]);
+    difference += double(counted[i]) - double(truth[i]);
+    differenceVariance += both;
+    if (both <= 0) continue;
+    squares += std::pow(double(counted[i]) - double(truth[i]), 2) / both;
+    ++lit;
+  }
+  const double fluxError = difference / (mean * double(truth.size()));
+  if (!wanted.isFromFile) {
+    EXPECT_LT(std::abs(difference) / std::sqrt(differenceVariance), 4)
+        << "flux off by " << 100 * fluxError << " %";
+    // The mean square of z is 1; more, as the answer's photons need not all weigh the same.
+    EXPECT_LT(squares / double(lit), 1.5);
+  } else {
+    EXPECT_NEAR(fluxError, 0, 0.01);
+  }
+}
+
+constexpr Case kCases[] = {
+    {"ball-point", "ball-point.transmission.pfm", Paths::transmission, 0.0079},
+    {"ball-point", "ball-point.all.pfm", Paths::all, 0.0083},
+    {"ball-sun-0.6", "ball-sun-0.6.transmission.pfm", Paths::transmission, 0.0095},
+    {"ball-sun-0.6", "ball-sun-0.6.all.pfm", Paths::all, 0.0111},
+    {"ball-sun-0.75", "ball-sun-0.75.transmission.pfm", Paths::transmission, 0.0089},
+    {"ball-sun-0.75", "ball-sun-0.75.all.pfm", Paths::all, 0.0100},
+    {"ball-sun-1.2", "ball-sun-1.2.transmission.pfm", Paths::transmission, 0.0098},
+    {"ball-sun-1.2", "ball-sun-1.2.all.pfm", Paths::all, 0.0102},
+    {"bunny-point", "bunny-point.transmission.pfm", Paths::transmission, 0.0160, true},
+    {"bunny-point", "bunny-point.all.pfm", Paths::all, 0.0158, true},
+    {"spot-coloured", "spot-coloured.transmission.pfm", Paths::transmission, 0.0212, true},
+    {"spot-coloured", "spot-coloured.all.pfm", Paths::all, 0.0214, true},
+    {"mirror-ring", "mirror-ring.all.pfm", Paths::all, 0.0325},
+    {"sine-0.5", "sine-0.5.pfm", Paths::transmission, 0},
+    {"sine-0.9", "sine-0.9.pfm", Paths::transmission, 0},
+    {"sine-2.0", "sine-2.0.pfm", Paths::transmission, 0},
+};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ReferenceTruth, testing::ValuesIn(kCases));
+
+}  // namespace
+}  // namespace nephroid
