@@ -240,14 +240,6 @@ TEST_F(SceneFile, NamesMustDiffer) {
   expectError(kMaterials + ball + ball, {"\"b\"", "taken"});
 }
 
-TEST_F(SceneFile, LightShapingIsRefusedNotIgnored) {
-  const std::string spot =
-      "[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\nintensity = 1\ndirection = [0, -1, 0]\n";
-  write("dots.png", "");
-  expectError(spot + "gobo = \"dots.png\"\n", {"gobo", "scene.toml:6"});
-  expectError(spot + "ies = \"none.ies\"\n", {"none.ies", "not there"});
-}
-
 TEST_F(SceneFile, MissingOrOddFilesAreTold) {
   EXPECT_NE(inputErrorOf([&] { loadScene(folder() / "none.toml"); }).find("no such file"), std::string::npos);
   EXPECT_NE(inputErrorOf([&] { loadScene(folder()); }), "");

@@ -27,8 +27,8 @@ Image readExr(const std::filesystem::path& file);
 void writePng(const std::filesystem::path& file, const ByteImage& image);
 // The bytes of such a file.
 std::string encodePng(const ByteImage& image);
-// As RGBA, whatever the file holds.
-ByteImage readPng(const std::filesystem::path& file);
+// As RGBA, whatever the file holds. No side may be longer than `largestSide` pixels.
+ByteImage readPng(const std::filesystem::path& file, uint32_t largestSide = 1u << 15);
 
 // 0 to 1, undoing the sRGB transfer curve (IEC 61966-2-1).
 float linearFromSrgb(float encoded);

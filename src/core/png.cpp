@@ -1,5 +1,6 @@
 #include <png.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -10,8 +11,6 @@
 
 namespace nephroid {
 namespace {
-
-constexpr uint32_t kMaximumSide = 1u << 15;
 
 // libpng's own memory, freed whatever is thrown.
 struct PngImage : png_image {
@@ -40,13 +39,14 @@ void writePng(const std::filesystem::path& path, const ByteImage& image) {
   writeFileAtomically(path, encodePng(image));
 }
 
-ByteImage readPng(const std::filesystem::path& path) {
+ByteImage readPng(const std::filesystem::path& path, uint32_t largestSide) {
   const auto fail = [&](const std::string& reason) {
     throw InputError("cannot read '" + path.string() + "' as PNG: " + reason);
   };
   PngImage png;
   if (!png_image_begin_read_from_file(&png, path.c_str())) fail(png.message);
-  if (png.width > kMaximumSide || png.height > kMaximumSide) fail("no side may be longer than 32768 pixels");
+  if (std::max(png.width, png.height) > largestSide)
+    fail("no side may be longer than " + std::to_string(largestSide) + " pixels");
   png.format = PNG_FORMAT_RGBA;
   ByteImage image{png.width, png.height, 4, std::vector<uint8_t>(PNG_IMAGE_SIZE(png))};
   if (!png_image_finish_read(&png, nullptr, image.bytes.data(), 0, nullptr)) fail(png.message);

@@ -14,7 +14,7 @@ struct Emitter {
   vec3 position;    // m (point, spot)
   uint type;        // kEmitter...
   vec3 direction;   // unit, the way the light travels (directional, spot)
-  float coneScale;  // falloff of KHR_lights_punctual: clamp(cos(angle) * coneScale + coneOffset, 0, 1)^2
+  float coneScale;  // of coneFalloff
   vec3 power;       // cd (point, spot) or lux on a facing surface (directional)
   float coneOffset;
 };
@@ -25,12 +25,17 @@ SHARED_FUNCTION vec3 emitterDirection(Emitter emitter, vec3 point) {
   return normalize(point - emitter.position);
 }
 
+// Falloff of KHR_lights_punctual at an angle from the spot's axis.
+SHARED_FUNCTION float coneFalloff(float cosine, float coneScale, float coneOffset) {
+  float linear = clamp(cosine * coneScale + coneOffset, 0.0f, 1.0f);
+  return linear * linear;
+}
+
 // cd toward the unit vector `direction`, or lux for a directional light.
 SHARED_FUNCTION vec3 emitterPower(Emitter emitter, vec3 direction) {
   if (emitter.type != kEmitterSpot) return emitter.power;
-  float falloff =
-      clamp(dot(emitter.direction, direction) * emitter.coneScale + emitter.coneOffset, 0.0f, 1.0f);
-  return emitter.power * (falloff * falloff);
+  return emitter.power *
+         coneFalloff(dot(emitter.direction, direction), emitter.coneScale, emitter.coneOffset);
 }
 
 // Illuminance (lux) at `point` on a surface facing the light.

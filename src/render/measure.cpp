@@ -5,6 +5,7 @@
 #include "beams/build.h"
 #include "beams/deposit.h"
 #include "scene/emitters.h"
+#include "scene/light_intensity.h"
 #include "transport/queries.h"
 
 namespace nephroid {
@@ -39,6 +40,7 @@ void addChannels(Image& image, const std::string& prefix, const SensorLayer& lay
 
 SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor,
                           Progress& progress) {
+  requireDrawableLights(scene);
   const std::vector<Emitter> emitters = emittersOf(scene);
   const vec3 normal = sensor.normal();
   SensorLayer layer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
@@ -64,6 +66,7 @@ SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor
 SensorLayer measureBeams(const Scene& scene, const RayScene& rays, const TransportSource& source,
                          const Sensor& sensor, Paths paths, uint32_t refineDepth, Progress& progress,
                          Stats& stats) {
+  requireDrawableLights(scene);
   const TracedSource media(scene, rays);
   const PlaneGrid grid = gridOf(sensor);
   BeamSettings settings;

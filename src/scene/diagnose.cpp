@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "scene/framing.h"
+#include "scene/light_intensity.h"
 #include "scene/mesh_checks.h"
 
 namespace nephroid {
@@ -130,11 +131,32 @@ void warnAboutScene(const Scene& scene, SceneReport& report) {
                        " without an area left out");
   }
   if (scene.medium) warnings.push_back("the medium is not rendered by this version");
+  for (const Light& light : scene.lights) {
+    if (const std::string why = whyNotDrawable(light); !why.empty()) warnings.push_back(why);
+  }
   for (const Material& material : scene.materials) {
     if (material.emission != vec3(0)) {
       warnings.push_back("the material \"" + material.name + "\" glows, but lights nothing else");
     }
   }
+}
+
+// What shapes a light besides its cone.
+std::string describeShape(const Scene& scene, const Light& light) {
+  std::ostringstream text;
+  if (light.goboTexture != kNone) {
+    const Texture& gobo = scene.textures[light.goboTexture];
+    text << "  " << light.name << ": gobo " << gobo.name << " (" << gobo.width << " x " << gobo.height
+         << ")\n";
+  }
+  if (light.profile != kNone) {
+    const Profile& profile = scene.profiles[light.profile];
+    text << "  " << light.name << ": profile " << profile.name << " (type "
+         << "CBA"[int(profile.type)] << ", " << profile.verticalAngles.size() << " vertical x "
+         << profile.horizontalAngles.size() << " horizontal angles; by itself " << profile.peak
+         << " cd at its peak, " << profileFlux(profile) << " lm)\n";
+  }
+  return text.str();
 }
 
 const char* nameOf(MaterialType type) {
@@ -193,6 +215,7 @@ std::string describe(const Scene& scene, const SceneReport& report) {
        << "  " << counted(report.materials, "material", "materials") << ", "
        << counted(report.textures, "texture", "textures") << ", " << counted(report.lights, "light", "lights")
        << ", " << counted(report.sensors, "sensor", "sensors") << "\n";
+  for (const Light& light : scene.lights) text << describeShape(scene, light);
   std::size_t hindered = 0;
   for (const CasterReport& caster : report.casterReports) {
     const Object& object = scene.objects[caster.object];

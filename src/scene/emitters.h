@@ -9,8 +9,22 @@
 
 namespace nephroid {
 
+// What coneFalloff takes besides the angle.
+struct SpotCone {
+  float scale = 0;
+  float offset = 1;
+};
+
+inline SpotCone coneOf(const Light& light) {
+  if (light.outerAngle >= 180) return {};
+  const float cosInner = std::cos(glm::radians(light.innerAngle));
+  const float cosOuter = std::cos(glm::radians(light.outerAngle));
+  const float scale = 1 / std::max(0.001f, cosInner - cosOuter);
+  return {scale, -cosOuter * scale};
+}
+
 // The emitters light `light` stands for: one, or `samples` points of equal share along a line, each at the
-// middle of its part.
+// middle of its part. Gobos and profiles are left out (requireDrawableLights).
 inline std::vector<Emitter> emittersOf(const Light& light) {
   Emitter emitter{};
   emitter.position = light.position;
@@ -26,10 +40,9 @@ inline std::vector<Emitter> emittersOf(const Light& light) {
       return {emitter};
     case LightType::spot: {
       emitter.type = kEmitterSpot;
-      const float cosInner = std::cos(glm::radians(light.innerAngle));
-      const float cosOuter = std::cos(glm::radians(light.outerAngle));
-      emitter.coneScale = 1 / std::max(0.001f, cosInner - cosOuter);
-      emitter.coneOffset = -cosOuter * emitter.coneScale;
+      const SpotCone cone = coneOf(light);
+      emitter.coneScale = cone.scale;
+      emitter.coneOffset = cone.offset;
       return {emitter};
     }
     case LightType::line:

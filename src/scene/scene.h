@@ -110,16 +110,37 @@ enum class LightType { directional, point, spot, line };
 struct Light {
   std::string name;
   LightType type = LightType::point;
-  vec3 position{0};            // point, spot; one end of a line
-  vec3 end{0};                 // the other end of a line
-  vec3 direction{0, -1, 0};    // unit, the way the light travels
-  vec3 intensity{1};           // cd; of the whole tube for a line
-  vec3 illuminance{1};         // lux on a facing surface (directional)
-  float innerAngle = 0;        // degrees, half angle of full intensity (spot)
-  float outerAngle = 45;       // degrees, half angle of none
-  uint32_t samples = 8;        // points a line is replaced by
-  std::filesystem::path gobo;  // image in front of a spot; empty for none
-  std::filesystem::path ies;   // LM-63 profile; empty for none
+  vec3 position{0};              // point, spot; one end of a line
+  vec3 end{0};                   // the other end of a line
+  vec3 direction{0, -1, 0};      // unit, the way the light travels
+  vec3 intensity{1};             // cd; of the whole tube for a line
+  vec3 illuminance{1};           // lux on a facing surface (directional)
+  float innerAngle = 0;          // degrees, half angle of full intensity (spot)
+  float outerAngle = 45;         // degrees, half angle of none; 180: no cone
+  uint32_t samples = 8;          // points a line is replaced by
+  uint32_t goboTexture = kNone;  // what a spot's image lets through
+  uint32_t profile = kNone;      // which shapes a spot; its peak is `intensity`
+};
+
+// The goniometer's axes (IES LM-75). With vertical 0, horizontal 0 along the light:
+enum class PhotometryType {
+  c,  // vertical from 0 (along the light) to 180; horizontal around it, 0 up and 90 to the left of who looks
+      // along it
+  b,  // horizontal -90 to 90 is the latitude (+ to the right), vertical turns around the axis to the right
+  a,  // vertical -90 to 90 is the latitude (+ up), horizontal turns around the axis upward
+};
+
+// Luminous intensity over direction, measured (IES LM-63), linear between the angles and 0 beyond the
+// vertical ones. Left out by symmetry: in type C all around, where there is one horizontal angle, or what
+// mirrors 0 to 90, 0 to 180, or 90 to 270 degrees; in types A and B what is below 0 on an axis that begins
+// there.
+struct Profile {
+  std::string name;
+  PhotometryType type = PhotometryType::c;
+  std::vector<float> verticalAngles;    // degrees, ascending, two or more
+  std::vector<float> horizontalAngles;  // degrees, ascending
+  std::vector<float> fractions;         // of the peak, [horizontal * verticalAngles.size() + vertical]
+  float peak = 0;                       // cd, above 0
 };
 
 enum class PhaseType { isotropic, henyeyGreenstein, nishita };
@@ -148,6 +169,7 @@ struct Scene {
   Camera camera;
   Environment environment;
   std::vector<Texture> textures;
+  std::vector<Profile> profiles;
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Object> objects;
