@@ -145,6 +145,19 @@ std::vector<float> channelMeans(const Image& image, const std::string& layer) {
   });
 }
 
+Image pixelsOf(const Image& image, const std::vector<uint8_t>& chosen) {
+  Image some;
+  some.width = uint32_t(std::count_if(chosen.begin(), chosen.end(), [](uint8_t is) { return is != 0; }));
+  some.height = 1;
+  for (const ImageChannel& channel : image.channels) {
+    std::vector<float>& values = some.channel(channel.name);
+    auto next = values.begin();
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      if (chosen[i]) *next++ = channel.values[i];
+  }
+  return some;
+}
+
 double quantile(std::vector<float> values, double fraction) {
   std::erase_if(values, [](float value) { return std::isnan(value); });
   if (values.empty()) return 0;

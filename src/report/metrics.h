@@ -46,6 +46,9 @@ std::vector<float> absoluteErrors(const Image& reference, const Image& image, co
 // For each pixel the mean over channels.
 std::vector<float> channelMeans(const Image& image, const std::string& layer);
 
+// Some of an image's pixels, those where `chosen` (one for each pixel) is not 0, in a row.
+Image pixelsOf(const Image& image, const std::vector<uint8_t>& chosen);
+
 // The value that `fraction` of the values, those that are numbers, do not exceed; 0 of none.
 double quantile(std::vector<float> values, double fraction);
 

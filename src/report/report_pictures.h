@@ -1,0 +1,41 @@
+// The pictures of a report.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/comparison.h"
+
+namespace nephroid {
+
+// What the colours of a false-colour picture stand for: from 0, or from -bound where it is signed, to bound.
+struct ColorScale {
+  bool isSigned = false;
+  double bound = 1;
+  std::string unit;  // "nit", "lux", "%"; empty for a plain number
+};
+
+// The reference and the techniques shown alike, to be laid over each other.
+struct PictureView {
+  std::string name;
+  std::optional<ColorScale> scale;
+  ByteImage reference;
+  std::vector<ByteImage> techniques;
+};
+
+struct ErrorMap {
+  std::string name;
+  ColorScale scale;
+  ByteImage picture;
+};
+
+struct SidePictures {
+  std::vector<PictureView> views;
+  std::vector<std::vector<ErrorMap>> maps;  // of each technique
+};
+
+// `errors` are those of `pair`. A camera is shown as pictures, a sensor in false colour.
+SidePictures picturesOf(const SideBySide& pair, const std::vector<Errors>& errors, float exposure);
+
+}  // namespace nephroid
