@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +11,8 @@
 #include "example_comparison.h"
 #include "report/report_folder.h"
 #include "report/report_json.h"
+#include "report/seen_directly.h"
+#include "scene/shapes.h"
 #include "temporary_folder.h"
 
 namespace nephroid {
@@ -49,6 +53,28 @@ TEST(Comparison, RefusesImagesOfDifferentSizes) {
   SideBySide view = exampleSide(64, 48, "");
   view.techniques[1].image = exampleImage({48, 64});
   EXPECT_THROW(errorsOf(view, 1), InputError);
+}
+
+// A ball of radius r at a distance d hides the directions within asin(r / d); pixels that its edge crosses
+// are hidden as well, and there are about eight of them for each pixel of its radius.
+TEST(Comparison, KnowsWhatCastersHide) {
+  Scene scene;
+  scene.camera.position = {0, 0, 4};
+  scene.meshes.push_back(makeSphere(1, {.vertices = 20000}));
+  scene.materials.push_back({.name = "glass", .type = MaterialType::dielectric});
+  scene.objects.push_back({"ball", 0, 0, {}, std::nullopt});
+  const uvec2 size(200, 100);
+  const std::vector<uint8_t> sees = seesReceiver(scene, RayScene(scene), size);
+  const auto hidden = double(std::count(sees.begin(), sees.end(), 0));
+  const double radius = std::tan(std::asin(0.25)) / (2 * std::tan(glm::radians(20.0)) / size.y);  // pixels
+  const double disc = M_PI * radius * radius;
+  EXPECT_GT(hidden, disc);
+  EXPECT_LT(hidden, disc + 8 * radius);
+  EXPECT_EQ(sees[50 * size.x + 100], 0);
+  EXPECT_EQ(sees[0], 1);
+
+  scene.materials[0].type = MaterialType::diffuse;
+  for (const uint8_t seen : seesReceiver(scene, RayScene(scene), size)) EXPECT_EQ(seen, 1);
 }
 
 TEST(Report, HoldsItsNumbersAsJson) {
