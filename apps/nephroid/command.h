@@ -46,7 +46,8 @@ void addTime(CLI::App& command, double& time);
 void addSize(CLI::App& command, uvec2& size);  // pixels
 void addDevice(CLI::App& command, std::string& device);
 void addQuiet(CLI::App& command, bool& isQuiet);
-void addMeasuring(CLI::App& command, CommonOptions& options);
+void addRepeat(CLI::App& command, uint32_t& repeat);
+void addStats(CLI::App& command, std::filesystem::path& stats);
 // `isSensorKnown`: a plane may be put where the sensor is.
 void addField(CLI::App& command, const SettingField& field, TechniqueSettings& settings, bool isSensorKnown);
 // Which technique, and all that may be said of how it works; and the latter alone.
@@ -64,11 +65,17 @@ std::function<std::string(const std::string&)> oneOf(std::vector<std::string> na
 // "A<separator>B", both whole numbers; empty where it is not that.
 std::optional<uvec2> pairOf(const std::string& text, char separator);
 
+// The technique that is the truth for the others, and runs without them.
+inline constexpr const char* kReferenceName = "reference";
+
 // The names of all techniques.
 std::vector<std::string> techniqueList();
 
 // "a, b, c".
 std::string joined(const std::vector<std::string>& names);
+
+// The program and its arguments as a shell would be given them.
+const std::string& commandLine();
 
 // What an EXR says of how it was made. Neither a time nor a place, so that the same command writes the same
 // bytes.

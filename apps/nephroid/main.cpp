@@ -1,4 +1,7 @@
 // The command line: what was asked for is read here, done elsewhere, and ends as an exit status.
+#include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <iostream>
 #include <new>
 
@@ -8,6 +11,24 @@
 
 namespace nephroid {
 namespace {
+
+std::string typedCommand;
+
+// A word that a shell would take apart is quoted.
+std::string quoted(const std::string& word) {
+  const auto isPlain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || std::strchr("_-+./,:=@%", c) != nullptr;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), isPlain)) return word;
+  std::string text;
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return "'" + text + "'";
+}
+
+void rememberCommandLine(int argc, char** argv) {
+  typedCommand = "nephroid";
+  for (int i = 1; i < argc; ++i) typedCommand += " " + quoted(argv[i]);
+}
 
 enum ExitStatus { kDone = 0, kFailed = 1, kWrongInput = 2, kInterrupted = 130 };
 
@@ -54,6 +75,7 @@ std::string describe(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 ExitStatus runProgram(int argc, char** argv) {
+  rememberCommandLine(argc, argv);
   CLI::App app("Caustics: the light that glass, mirrors and water send on.", "nephroid");
   app.set_version_flag("--version", "nephroid " NEPHROID_VERSION);
   app.require_subcommand(1);
@@ -88,6 +110,11 @@ ExitStatus runGuarded(int argc, char** argv) {
 }
 
 }  // namespace
+
+const std::string& commandLine() {
+  return typedCommand;
+}
+
 }  // namespace nephroid
 
 int main(int argc, char** argv) {

@@ -6,6 +6,8 @@
 #include "core/error.h"
 #include "core/image_io.h"
 #include "drawing.h"
+#include "reference/sensor.h"
+#include "refining.h"
 #include "render/technique_meter.h"
 #include "scene/load.h"
 #include "techniques/sources.h"
@@ -17,6 +19,7 @@ namespace {
 struct MeasureOptions : CommonOptions {
   std::string sensor;
   TechniqueSettings technique;
+  ReferenceOptions reference;
 };
 
 const Sensor& sensorNamed(const Scene& scene, const std::string& name) {
@@ -53,9 +56,27 @@ CausticsMeter techniqueMeter(gpu::Device& device, const Scene& scene, const Sens
   return [meter] { return meter->read(); };
 }
 
+void measureReference(const MeasureOptions& options) {
+  Progress progress(progressDisplay(options.isQuiet));
+  Stats stats;
+  stats.technique = kReferenceName;
+  stats.device = "host";
+  const Stopwatch preparing;
+  const Scene scene = loadScene(options.scene, options.time);
+  const Sensor& sensor = sensorNamed(scene, options.sensor);
+  const RayScene rays(scene);
+  const ReferenceSettings settings =
+      referenceSettings(options.reference, options.technique, sensor.resolution);
+  ReferenceSensor counter(scene, rays, sensor, settings);
+  stats.prepareMilliseconds = preparing.milliseconds();
+  refineToFile(counter, {options, options.reference, settings, scene, "lux", sensor.name}, progress, stats);
+  writeStats(options.stats, stats);
+}
+
 void runMeasure(const MeasureOptions& options) {
   checkOutput(options.output, options.scene, {".exr"});
   if (!options.stats.empty()) checkOutput(options.stats, options.scene);
+  if (options.technique.technique == kReferenceName) return measureReference(options);
   const TechniqueSettings& settings = options.technique;
   Progress progress(progressDisplay(options.isQuiet));
   Stats stats;
@@ -102,7 +123,10 @@ Command addMeasure(CLI::App& program) {
             "caustics.R,G,B light that met at least one");
   addTime(*command, options->time);
   addTechnique(*command, options->technique, true);
-  addMeasuring(*command, *options);
+  addReference(*command, options->reference);
+  addResume(*command, options->reference);
+  addRepeat(*command, options->repeat);
+  addStats(*command, options->stats);
   addQuiet(*command, options->isQuiet);
   return {command, [options] { runMeasure(*options); }};
 }

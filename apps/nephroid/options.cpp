@@ -49,6 +49,7 @@ std::function<std::string(const std::string&)> oneOf(std::vector<std::string> na
 std::vector<std::string> techniqueList() {
   std::vector<std::string> names;
   for (const TechniqueEntry& entry : techniques()) names.emplace_back(entry.name);
+  names.emplace_back(kReferenceName);
   return names;
 }
 
@@ -120,18 +121,21 @@ void addQuiet(CLI::App& command, bool& isQuiet) {
   command.add_flag("--quiet", isQuiet, "No progress bars");
 }
 
-void addMeasuring(CLI::App& command, CommonOptions& options) {
+void addRepeat(CLI::App& command, uint32_t& repeat) {
   command
       .add_option(
-          "--repeat", options.repeat,
+          "--repeat", repeat,
           "Do the frame this many times, each time all that a moved light would change; the time told "
           "is their median")
       ->check(CLI::Range(1u, 1000000u))
       ->type_name("N")
       ->capture_default_str();
+}
+
+void addStats(CLI::App& command, fs::path& stats) {
   command
       .add_option(
-          "--stats", options.stats,
+          "--stats", stats,
           "Where to write what the run took: device, technique, source, prepare_ms, frame_ms, passes, "
           "counts, memory_bytes")
       ->type_name("FILE.json");

@@ -6,6 +6,8 @@
 
 #include "command.h"
 #include "drawing.h"
+#include "reference/image.h"
+#include "refining.h"
 #include "scene/load.h"
 
 namespace nephroid {
@@ -23,6 +25,7 @@ struct RenderOptions : CommonOptions {
   RenderSettings render;
   std::optional<FrameRange> frames;
   double framesPerSecond = 60;
+  ReferenceOptions reference;
 };
 
 // A frame to be drawn: when, and where to.
@@ -63,10 +66,32 @@ std::vector<FrameTime> drawJob(const RenderOptions& options, const FrameJob& job
                    [&](Renderer& renderer) { writePicture(renderer, options.technique, job.output); });
 }
 
+void renderReference(const RenderOptions& options, const std::vector<FrameJob>& jobs) {
+  Progress progress(progressDisplay(options.isQuiet));
+  Stats stats;
+  stats.technique = kReferenceName;
+  stats.device = "host";
+  for (const FrameJob& job : jobs) {
+    const Stopwatch preparing;
+    CommonOptions common = options;
+    common.time = job.time;
+    common.output = job.output;
+    const Scene scene = loadScene(options.scene, job.time);
+    const RayScene rays(scene);
+    const ReferenceSettings settings =
+        referenceSettings(options.reference, options.technique, options.render.size);
+    ReferenceImage image(scene, rays, settings);
+    stats.prepareMilliseconds += preparing.milliseconds();
+    refineToFile(image, {common, options.reference, settings, scene, "nit", ""}, progress, stats);
+  }
+  writeStats(options.stats, stats);
+}
+
 void runRender(const RenderOptions& options) {
   const std::vector<FrameJob> jobs = jobsOf(options);
   checkOutput(jobs.front().output, options.scene, {".png", ".exr"});
   if (!options.stats.empty()) checkOutput(options.stats, options.scene);
+  if (options.technique.technique == kReferenceName) return renderReference(options, jobs);
 
   Progress progress(progressDisplay(options.isQuiet));
   loadScene(options.scene, options.time);  // what is wrong with it is told before a device is looked for
@@ -119,8 +144,11 @@ Command addRender(CLI::App& program) {
   addTime(*command, options->time);
   addFrames(*command, *options);
   addTechnique(*command, options->technique, false);
+  addReference(*command, options->reference);
+  addResume(*command, options->reference);
   addDevice(*command, options->device);
-  addMeasuring(*command, *options);
+  addRepeat(*command, options->repeat);
+  addStats(*command, options->stats);
   addQuiet(*command, options->isQuiet);
   return {command, [options] { runRender(*options); }};
 }

@@ -29,6 +29,13 @@ Imf::Slice floatSlice(const float* values, const Image& image, int originX = 0, 
   return Imf::Slice::Make(Imf::FLOAT, values, Imath::V2i(originX, originY), image.width, image.height);
 }
 
+InputError unreadable(const std::filesystem::path& path, const Iex::BaseExc& error) {
+  std::string reason = error.what();
+  for (char& c : reason)
+    if (c == '\n') c = ' ';
+  return InputError("cannot read '" + path.string() + "' as OpenEXR: " + reason);
+}
+
 }  // namespace
 
 void writeExr(const std::filesystem::path& path, const Image& image,
@@ -72,11 +79,29 @@ Image readExr(const std::filesystem::path& path) {
     input.readPixels(window.min.y, window.max.y);
     return image;
   } catch (const Iex::BaseExc& error) {
-    std::string reason = error.what();
-    for (char& c : reason)
-      if (c == '\n') c = ' ';
-    throw InputError("cannot read '" + path.string() + "' as OpenEXR: " + reason);
+    throw unreadable(path, error);
   }
+}
+
+std::vector<ImageAttribute> readExrAttributes(const std::filesystem::path& path) {
+  std::vector<ImageAttribute> attributes;
+  if (!std::filesystem::exists(path)) return attributes;
+  try {
+    const Imf::InputFile input(path.c_str());
+    const Imf::Header& header = input.header();
+    for (auto entry = header.begin(); entry != header.end(); ++entry) {
+      const Imf::Attribute& attribute = entry.attribute();
+      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute))
+        attributes.push_back({entry.name(), text->value()});
+      else if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&attribute))
+        attributes.push_back({entry.name(), number->value()});
+      else if (const auto* whole = dynamic_cast<const Imf::IntAttribute*>(&attribute))
+        attributes.push_back({entry.name(), whole->value()});
+    }
+  } catch (const Iex::BaseExc& error) {
+    throw unreadable(path, error);
+  }
+  return attributes;
 }
 
 }  // namespace nephroid

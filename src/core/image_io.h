@@ -22,6 +22,8 @@ void writeExr(const std::filesystem::path& file, const Image& image,
               const std::vector<ImageAttribute>& attributes = {});
 // All channels, sorted by name; half floats and integers become floats.
 Image readExr(const std::filesystem::path& file);
+// Those of the kinds that writeExr writes; none where there is no such file.
+std::vector<ImageAttribute> readExrAttributes(const std::filesystem::path& file);
 
 // The bytes are taken as sRGB.
 void writePng(const std::filesystem::path& file, const ByteImage& image);

@@ -11,8 +11,8 @@ SHARED_CONSTANT uint kPhaseHenyeyGreenstein = 1u;
 SHARED_CONSTANT uint kPhaseNishita = 2u;
 
 // 1/sr scattered from one direction of travel into another; `cosine` is that of the angle between them, 1 for
-// light that goes straight on. `g`: mean cosine (Henyey and Greenstein 1941). Nishita: K (1 + 9 cos^16(angle / 2))
-// (Dobashi 2002, after Nishita 1987), of which K is 1 / (8 pi).
+// light that goes straight on. `g`: mean cosine (Henyey and Greenstein 1941). Nishita: K (1 + 9 cos^16(angle
+// / 2)) (Dobashi 2002, after Nishita 1987), of which K is 1 / (8 pi).
 SHARED_FUNCTION float phaseFunction(uint type, float g, float cosine) {
   const float inverseFourPi = 0.0795774715f;
   if (type == kPhaseHenyeyGreenstein) {

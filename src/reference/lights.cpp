@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "reference/sampling.h"
-#include "scene/emitters.h"
 #include "scene/mesh_checks.h"
 
 namespace nephroid {
@@ -57,6 +56,7 @@ float coneWidth(const Light& light) {
 }  // namespace
 
 Lights::Lights(const Scene& sceneOfLights, Aim aim) : scene(sceneOfLights) {
+  for (const Light& light : scene.lights) shapes.push_back(shapedLight(scene, light));
   std::vector<Ball> objects, casters;
   for (const Object& object : scene.objects) {
     objects.push_back(ballAround(scene, object));
@@ -99,10 +99,10 @@ void Lights::addShares(uint32_t index, const std::vector<Target>& targets) {
     } else {
       const float width = coneWidth(position(index, 0.5f), target.center, target.radius);
       if (isSpot && width > coneWidth(light)) {
-        coneFlux = luminance(light.intensity) * 2 * kPi * coneWidth(light);
+        coneFlux = luminance(peakIntensity(light)) * 2 * kPi * coneWidth(light);
         continue;
       }
-      flux = luminance(light.intensity) * 2 * kPi * width;
+      flux = luminance(peakIntensity(light)) * 2 * kPi * width;
     }
     if (flux > 0) shares.push_back({index, target, flux, 0});
   }
@@ -122,11 +122,6 @@ vec3 Lights::position(uint32_t index, float u) const {
   return light.type == LightType::line ? glm::mix(light.position, light.end, u) : light.position;
 }
 
-vec3 Lights::intensity(const Light& light, vec3 direction) const {
-  if (light.type != LightType::spot) return light.intensity;
-  return emitterPower(emittersOf(light)[0], direction);
-}
-
 Illumination Lights::illumination(uint32_t index, vec3 point, float u) const {
   const Light& light = scene.lights[index];
   if (light.type == LightType::directional)
@@ -134,7 +129,7 @@ Illumination Lights::illumination(uint32_t index, vec3 point, float u) const {
   const vec3 offset = point - position(index, u);
   const float distance = length(offset);
   const vec3 direction = offset / distance;
-  return {direction, distance, intensity(light, direction) / (distance * distance)};
+  return {direction, distance, lightIntensity(shapes[index], direction) / (distance * distance)};
 }
 
 EmittedPhoton Lights::emit(float choice, float along, vec2 at) const {
@@ -181,7 +176,7 @@ EmittedPhoton Lights::emitFromPoint(const Share& share, vec3 origin, vec2 at) co
     if (i == uint32_t(&share - shares.data()) || width >= 2 || 0.5f * dot(aside, aside) <= width)
       density += shares[i].probability * coneDensity(width);
   }
-  return {origin, direction, intensity(light, direction) / density, share.light};
+  return {origin, direction, lightIntensity(shapes[share.light], direction) / density, share.light};
 }
 
 }  // namespace nephroid

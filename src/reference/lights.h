@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "scene/scene.h"
+#include "scene/light_intensity.h"
 #include "trace/ray_scene.h"
 
 namespace nephroid {
@@ -65,9 +65,9 @@ class Lights {
   void addShares(uint32_t light, const std::vector<Target>& targets);
   EmittedPhoton emitDirectional(const Share& share, vec2 at) const;
   EmittedPhoton emitFromPoint(const Share& share, vec3 origin, vec2 at) const;
-  vec3 intensity(const Light& light, vec3 direction) const;
 
   const Scene& scene;
+  std::vector<ShapedLight> shapes;  // of the lights
   vec3 sceneCenter{0};
   float sceneRadius = 0;  // m
   std::vector<Share> shares;

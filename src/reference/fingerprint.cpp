@@ -1,0 +1,66 @@
+#include "reference/fingerprint.h"
+
+#include "core/hash.h"
+
+namespace nephroid {
+namespace {
+
+class SceneHasher {
+ public:
+  template <class... Values>
+  void add(const Values&... values) {
+    (addOne(values), ...);
+  }
+  uint64_t value() const { return hasher.value(); }
+
+ private:
+  void addOne(float value) { hasher.add(value); }
+  void addOne(uint32_t value) { hasher.add(value); }
+  void addOne(const vec2& v) { add(v.x, v.y); }
+  void addOne(const vec3& v) { add(v.x, v.y, v.z); }
+  void addOne(const quat& q) { add(q.x, q.y, q.z, q.w); }
+  template <class T>
+  void addOne(const std::vector<T>& values) {
+    hasher.add(values.size());
+    hasher.add(std::as_bytes(std::span(values)));
+  }
+
+  Hasher hasher;
+};
+
+void add(SceneHasher& hasher, const Material& m) {
+  hasher.add(static_cast<uint32_t>(m.type), m.color, m.colorTexture, m.emission, m.ior, m.dispersion,
+             m.attenuationColor, m.attenuationDistance, uint32_t{m.thinWalled});
+}
+
+void add(SceneHasher& hasher, const Light& l) {
+  hasher.add(static_cast<uint32_t>(l.type), l.position, l.end, l.direction, l.intensity, l.illuminance,
+             l.innerAngle, l.outerAngle, l.goboTexture, l.profile);
+}
+
+}  // namespace
+
+uint64_t fingerprint(const Scene& scene) {
+  SceneHasher hasher;
+  const Camera& camera = scene.camera;
+  hasher.add(camera.position, camera.target, camera.up, camera.verticalFov);
+  hasher.add(scene.environment.ambient, scene.environment.background);
+  for (const Texture& texture : scene.textures) hasher.add(texture.width, texture.height, texture.texels);
+  for (const Material& material : scene.materials) add(hasher, material);
+  for (const Mesh& mesh : scene.meshes)
+    hasher.add(mesh.positions, mesh.normals, mesh.texcoords, mesh.triangles, uint32_t{mesh.isCurved});
+  for (const Object& object : scene.objects)
+    hasher.add(object.mesh, object.material, object.placement.translation, object.placement.rotation,
+               object.placement.scale);
+  for (const Profile& profile : scene.profiles)
+    hasher.add(static_cast<uint32_t>(profile.type), profile.verticalAngles, profile.horizontalAngles,
+               profile.fractions);
+  for (const Light& light : scene.lights) add(hasher, light);
+  if (const std::optional<Medium>& medium = scene.medium)
+    hasher.add(medium->extinction, medium->albedo, static_cast<uint32_t>(medium->phase), medium->g);
+  for (const Sensor& sensor : scene.sensors)
+    hasher.add(sensor.corner, sensor.u, sensor.v, sensor.resolution.x, sensor.resolution.y);
+  return hasher.value();
+}
+
+}  // namespace nephroid
