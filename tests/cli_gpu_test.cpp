@@ -93,6 +93,47 @@ TEST_F(RenderCommand, WrongInputLeavesNothingBehind) {
   EXPECT_EQ(folder.fileCount(), 1u);
 }
 
+// A lit floor under a sensor and a glass ball: techniques differ from the reference in the ball's light
+// alone.
+TEST_F(RenderCommand, ComparesTechniquesWithTheReference) {
+  std::ofstream(folder / "ball.toml") << kScene << R"(
+[[material]]
+name = "glass"
+type = "dielectric"
+[[object]]
+name = "ball"
+material = "glass"
+shape = "sphere"
+radius = 0.3
+vertices = 2000
+translation = [0, 0.8, 0]
+[[light]]
+type = "point"
+position = [0, 3, 0]
+intensity = 100
+[[sensor]]
+name = "floor"
+corner = [-1, 0, -1]
+u = [2, 0, 0]
+v = [0, 0, 2]
+resolution = [16, 16]
+)";
+  const ProgramResult result = runProgram({"compare", at("ball.toml"), "-o", at("report"), "--size", "32x24",
+                                           "--passes", "2", "--paths", "transmission", "--source", "traced"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto json = nlohmann::json::parse(readAll(folder / "report/report.json"));
+  EXPECT_EQ(json["view"]["reference"]["passes"], 2);
+  EXPECT_NE(json["command"].get<std::string>().find("--paths transmission"), std::string::npos);
+  ASSERT_EQ(json["view"]["techniques"].size(), 2u);
+  const auto& sensor = json["sensors"][0]["techniques"];
+  EXPECT_EQ(sensor[0]["name"], "illumination-textures");
+  EXPECT_NEAR(sensor[0]["layers"]["caustics"]["flux_ratio"].get<double>(), 1, 0.05);
+  EXPECT_NEAR(sensor[0]["layers"]["direct"]["flux_ratio"].get<double>(), 1, 0.05);
+  EXPECT_EQ(sensor[1]["layers"]["caustics"]["flux_ratio"], 0);
+  EXPECT_EQ(readExr(folder / "report/sensor1-floor.reference.exr").width, 16u);
+  EXPECT_EQ(readPng(folder / "report/none.png").width, 32u);
+}
+
 TEST_F(RenderCommand, SaysWhatToInstallWhereThereIsNoDriver) {
   const ProgramResult result =
       render({"-o", at("a.png")}, "VK_ICD_FILENAMES=/none.json VK_DRIVER_FILES=/none.json");

@@ -156,6 +156,25 @@ TEST_F(SceneCommand, WrongInputLeavesNothingBehind) {
   EXPECT_EQ(folder.fileCount(), 2u);
 }
 
+TEST_F(SceneCommand, CompareRefusesWrongInputAndForeignFolders) {
+  const auto compare = [&](std::vector<std::string> changed) {
+    std::vector<std::string> arguments{"compare", at("scene.toml")};
+    arguments.insert(arguments.end(), changed.begin(), changed.end());
+    return arguments;
+  };
+  std::filesystem::create_directory(folder / "mine");
+  std::ofstream(folder / "mine/notes.txt") << "mine";
+  expectWrong(compare({"-o", at("mine")}), "notes.txt");
+  expectWrong(compare({"-o", at("report"), "--techniques", "none,illumination-texture"}),
+              "did you mean 'illumination-textures'?");
+  expectWrong(compare({"-o", at("report"), "--passes", "0"}), "--passes");
+  expectWrong(compare({"-o", at("report"), "--error", "small"}), "--error");
+  expectWrong(compare({"-o", at("report"), "--size", "0x4"}), "--size");
+  expectWrong({"compare", "--techniques", "none", at("none.toml"), "-o", at("report")}, "none.toml");
+  expectWrong(compare({}), "--output");
+  EXPECT_EQ(folder.fileCount(), 2u);
+}
+
 TEST_F(SceneCommand, WhatCannotBeWrittenIsAFailure) {
   const ProgramResult result =
       runProgram({"measure", at("scene.toml"), "--sensor", "floor", "-o", at("none/floor.exr")});

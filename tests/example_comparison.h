@@ -79,6 +79,7 @@ inline Comparison exampleComparison() {
   comparison.commandLine = "nephroid compare 'ring </script>.toml' -o report";
   comparison.device = "a device";
   comparison.paths = "all";
+  comparison.techniquePaths = "transmission";
   comparison.spectrum = "continuous";
   comparison.photons = 1u << 20;
   comparison.leftOut = {{"", "The air", false}, {"none", "Caustics", true}};

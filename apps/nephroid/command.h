@@ -26,6 +26,7 @@ struct Command {
 Command addRender(CLI::App& program);
 Command addMeasure(CLI::App& program);
 Command addBake(CLI::App& program);
+Command addCompare(CLI::App& program);
 Command addBench(CLI::App& program);
 Command addInfo(CLI::App& program);
 

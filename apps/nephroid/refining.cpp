@@ -46,28 +46,13 @@ std::string stateKey(const ReferenceJob& job) {
   return hexadecimal(hasher.value());
 }
 
-std::vector<ImageAttribute> attributesOf(const Estimate& estimate, const ReferenceJob& job) {
-  return {{"software", std::string("nephroid ") + NEPHROID_VERSION},
-          {"commandLine", commandLine()},
-          {"technique", std::string("reference")},
-          {"paths", std::string(nameOf(job.settings.paths))},
-          {"spectrum", std::string(job.settings.spectrum == Spectrum::channels ? "channels" : "continuous")},
-          {"seed", std::to_string(job.settings.seed)},
-          {"photonsPerPass", static_cast<int>(job.settings.photons)},
-          {"passes", static_cast<int>(estimate.passes())},
-          {"relativeStandardError", static_cast<float>(estimate.noise())},
-          {"sceneTime", static_cast<float>(job.common.time)},
-          {"state", stateKey(job)},
-          {"unit", job.unit}};
-}
-
 void write(const Estimate& estimate, const ReferenceJob& job) {
   const std::filesystem::path& output = job.common.output;
   const Image image = estimate.image();
   if (output.extension() == ".png")
     writePng(output, pictureOf(image, job.scene.camera.exposure));
   else
-    writeExr(output, image, attributesOf(estimate, job));
+    writeExr(output, image, referenceAttributes(estimate, job));
 }
 
 template <class T>
@@ -164,6 +149,21 @@ StopRule stopRuleOf(const ReferenceOptions& options) {
   StopRule rule = options.stop;
   if (rule.passes == 0 && rule.seconds <= 0 && rule.error <= 0) rule.passes = kDefaultPasses;
   return rule;
+}
+
+std::vector<ImageAttribute> referenceAttributes(const Estimate& estimate, const ReferenceJob& job) {
+  return {{"software", std::string("nephroid ") + NEPHROID_VERSION},
+          {"commandLine", commandLine()},
+          {"technique", std::string("reference")},
+          {"paths", std::string(nameOf(job.settings.paths))},
+          {"spectrum", std::string(job.settings.spectrum == Spectrum::channels ? "channels" : "continuous")},
+          {"seed", std::to_string(job.settings.seed)},
+          {"photonsPerPass", static_cast<int>(job.settings.photons)},
+          {"passes", static_cast<int>(estimate.passes())},
+          {"relativeStandardError", static_cast<float>(estimate.noise())},
+          {"sceneTime", static_cast<float>(job.common.time)},
+          {"state", stateKey(job)},
+          {"unit", job.unit}};
 }
 
 void refineToFile(Estimate& estimate, const ReferenceJob& job, Progress& progress, Stats& stats) {

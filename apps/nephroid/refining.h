@@ -42,6 +42,9 @@ struct ReferenceJob {
   std::string sensor;  // its name; empty for an image
 };
 
+// What an EXR says of the passes in it.
+std::vector<ImageAttribute> referenceAttributes(const Estimate& estimate, const ReferenceJob& job);
+
 // Refines the estimate by the user's rule, from the file's own state with --resume, and writes it, now and
 // then and at the end. Throws Interrupted when the user ended it, after writing what there is.
 void refineToFile(Estimate& estimate, const ReferenceJob& job, Progress& progress, Stats& stats);

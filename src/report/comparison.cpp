@@ -59,16 +59,19 @@ std::vector<Errors> errorsOf(const SideBySide& pair, float exposure) {
 
 std::string whatDiffers(const Comparison& comparison) {
   if (comparison.paths == "transmission")
-    return "Reference and techniques follow the same light: refraction alone, colours that disperse in three "
-           "bands. "
-           "On sensors and on surfaces that are seen directly, what differs is numerical error. How glass "
-           "and "
-           "mirrors look themselves is the frame's own approximation, and stays part of the error.";
-  return "The reference follows light every way: refraction, reflection inside and outside, colours by "
-         "wavelength. "
-         "What differs is the error of a technique's model, listed below, as well as its numerical error; "
-         "with "
-         "--paths transmission the latter stands alone.";
+    return "Reference and techniques follow the same light: refraction alone (--paths transmission). On "
+           "sensors and on "
+           "surfaces that are seen directly, what differs is numerical error. How glass and mirrors look "
+           "themselves is "
+           "the frame's own approximation, and stays part of the error.";
+  const std::string techniques = comparison.techniquePaths == "transmission"
+                                     ? "the techniques refraction alone, as their papers do"
+                                     : "the techniques most of these ways (--paths all)";
+  return "The reference follows light every way, by refraction and by reflection inside and outside; " +
+         techniques +
+         ". What differs is the error of a technique's model, listed below, and its numerical error; with "
+         "--paths "
+         "transmission the latter stands alone.";
 }
 
 }  // namespace nephroid

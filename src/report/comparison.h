@@ -50,9 +50,10 @@ struct Comparison {
   std::string device;
   double time = 0;  // s, of what moves by itself
   float exposure = 1;
-  std::string paths;     // "transmission" or "all"
-  std::string spectrum;  // "channels" or "continuous"
-  uint32_t photons = 0;  // of a pass of the reference
+  std::string paths;           // the reference's: "transmission" or "all"
+  std::string techniquePaths;  // the techniques'
+  std::string spectrum;        // "channels" or "continuous"
+  uint32_t photons = 0;        // of a pass of the reference
   std::vector<LeftOut> leftOut;
   SideBySide view;
   std::vector<SideBySide> sensors;

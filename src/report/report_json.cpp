@@ -111,6 +111,7 @@ std::string reportJson(const Comparison& comparison, const ComparisonErrors& err
             {"time_s", number(comparison.time)},
             {"exposure", number(double(comparison.exposure))},
             {"paths", comparison.paths},
+            {"technique_paths", comparison.techniquePaths},
             {"spectrum", comparison.spectrum},
             {"what_differs", whatDiffers(comparison)},
             {"units", unitsJson()}};

@@ -38,8 +38,8 @@
     byId("command").textContent = numbers.command;
     const fact = (name, value) => element("li", {}, element("b", {}, name), value);
     byId("facts").append(
-      fact("picture", numbers.view.size.join(" × ")), fact("device", numbers.device), fact("paths", numbers.paths),
-      fact("spectrum", numbers.spectrum), fact("time", `${numbers.time_s} s`));
+      fact("picture", numbers.view.size.join(" × ")), fact("device", numbers.device), fact("paths", numbers.paths === numbers.technique_paths ? numbers.paths : `${numbers.paths}, of techniques ${numbers.technique_paths}`),
+      fact("dispersion", numbers.spectrum), fact("time", `${numbers.time_s} s`));
     byId("footer").textContent = `Made by ${numbers.program}. All numbers, with their units: report.json. Linear images: the EXR files beside this page.`;
   };
 

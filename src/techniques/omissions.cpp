@@ -68,9 +68,9 @@ std::span<const Omission> omissionsOfFrame() {
 
 std::span<const Omission> omissionsOfIlluminationTextures() {
   static constexpr Omission kOmissions[] = {
-      {"Long ways inside glass: with --paths all, most of the light reflected after the fourth surface at "
-       "which it "
-       "could be reflected or transmitted",
+      {"Reflection at glass, outside, inside and total, unless --paths all asks for it, and then most of "
+       "what is "
+       "reflected after the fourth surface at which it could be reflected or transmitted",
        hasGlass},
       {"The spectrum: light that disperses goes in three bands, red, green and blue, not by wavelength",
        hasDispersion},
