@@ -22,7 +22,7 @@ class MapVisitor final : public PhotonVisitor {
   explicit MapVisitor(bool keepsAir) : isAirKept(keepsAir) {}
 
   void segment(const PhotonSegment& segment) override {
-    if (!isAirKept || !segment.isInAir) return;
+    if (!isAirKept || !segment.metCaster || !segment.isInAir) return;
     const float extinction = segment.extinction.x;
     const DistanceSample sample = sampleExtinction(segment.sample, extinction, segment.length);
     StoredPhoton photon = stored(segment, segment.flux);
@@ -98,7 +98,7 @@ ReferenceImage::ReferenceImage(const Scene& sceneToSee, const RayScene& rays,
       shafts(total) {}
 
 PassLight ReferenceImage::traceLight() const {
-  const PhotonPass pass(scene, settings.spectrum, settings.seed, passesDone, settings.photons);
+  const PhotonPass pass = photonPass(scene, settings.spectrum, settings.seed, passesDone, settings.photons);
   const bool scatters = scene.medium && scene.medium->extinction * scene.medium->albedo > 0;
   FluxLedger ledger;
   std::vector<MapVisitor> groups = tracePass(tracer, pass, MapVisitor(scatters), ledger);

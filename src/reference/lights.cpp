@@ -76,9 +76,9 @@ Lights::Lights(const Scene& sceneOfLights, Aim aim) : scene(sceneOfLights) {
   for (uint32_t light = 0; light < scene.lights.size(); ++light) addShares(light, targets);
   firstShare.push_back(uint32_t(shares.size()));
 
-  float sum = 0;
+  double sum = 0;
   for (const Share& share : shares) sum += share.probability;
-  float cumulative = 0;
+  double cumulative = 0;
   for (Share& share : shares) {
     share.probability /= sum;
     share.cumulative = cumulative += share.probability;
@@ -132,9 +132,11 @@ Illumination Lights::illumination(uint32_t index, vec3 point, float u) const {
   return {direction, distance, lightIntensity(shapes[index], direction) / (distance * distance)};
 }
 
-EmittedPhoton Lights::emit(float choice, float along, vec2 at) const {
+EmittedPhoton Lights::emit(double choice, float along) const {
   const auto chosen = std::upper_bound(shares.begin(), shares.end() - 1, choice,
-                                       [](float u, const Share& share) { return u < share.cumulative; });
+                                       [](double u, const Share& share) { return u < share.cumulative; });
+  const double before = chosen == shares.begin() ? 0 : (chosen - 1)->cumulative;
+  const vec2 at = pointOnCurve(std::clamp((choice - before) / chosen->probability, 0.0, 1 - 0x1p-48));
   const Light& light = scene.lights[chosen->light];
   if (light.type == LightType::directional) return emitDirectional(*chosen, at);
   return emitFromPoint(*chosen, position(chosen->light, along), at);
@@ -152,7 +154,7 @@ EmittedPhoton Lights::emitDirectional(const Share& share, vec2 at) const {
     const vec3 aside = offset - dot(offset, light.direction) * light.direction;
     const float radiusSquared = target.radius * target.radius;
     if (dot(aside, aside) <= radiusSquared * 1.00001f)
-      density += shares[i].probability / (kPi * radiusSquared);
+      density += float(shares[i].probability) / (kPi * radiusSquared);
   }
   const float back = dot(through - sceneCenter, light.direction) + 1.01f * sceneRadius;
   return {through - back * light.direction, light.direction, light.illuminance / density, share.light};
@@ -174,7 +176,7 @@ EmittedPhoton Lights::emitFromPoint(const Share& share, vec3 origin, vec2 at) co
     const float width = widthOf(shares[i].target);
     const vec3 aside = direction - axisOf(shares[i].target);  // 1 - cosine is half its square
     if (i == uint32_t(&share - shares.data()) || width >= 2 || 0.5f * dot(aside, aside) <= width)
-      density += shares[i].probability * coneDensity(width);
+      density += float(shares[i].probability) * coneDensity(width);
   }
   return {origin, direction, lightIntensity(shapes[share.light], direction) / density, share.light};
 }

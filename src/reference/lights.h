@@ -40,9 +40,9 @@ class Lights {
   // The place light comes from: of a line at `u`; without meaning for a directional light.
   vec3 position(uint32_t light, float u) const;
 
-  // A photon of a light chosen by `choice` and along it by `along`, with a direction or place by `at`; all in
-  // [0, 1). Neighbouring choices are photons of one light toward one caster.
-  EmittedPhoton emit(float choice, float along, vec2 at) const;
+  // A photon: `choice` says of which light and in which direction or place, `along` where along it; both in
+  // [0, 1). Choices spread evenly are photons spread evenly, and neighbouring ones go nearly the same way.
+  EmittedPhoton emit(double choice, float along) const;
 
   // No light can come to a caster.
   bool isDark() const { return shares.empty(); }
@@ -58,8 +58,8 @@ class Lights {
   struct Share {
     uint32_t light = 0;
     Target target;
-    float probability = 0;
-    float cumulative = 0;  // with those before it
+    double probability = 0;
+    double cumulative = 0;  // with those before it
   };
 
   void addShares(uint32_t light, const std::vector<Target>& targets);

@@ -36,18 +36,11 @@ FluxLedger& FluxLedger::operator+=(const FluxLedger& other) {
   return *this;
 }
 
-PhotonPass::PhotonPass(const Scene& scene, Spectrum spectrum, uint64_t passSeed, uint64_t passIndex,
-                       uint32_t count)
-    : PhotonPass(scene, spectrum, passSeed, passIndex, count, randomOf(passSeed, passIndex, ~uint64_t{0})) {}
-
-PhotonPass::PhotonPass(const Scene& scene, Spectrum spectrum, uint64_t passSeed, uint64_t passIndex,
-                       uint32_t count, Random random)
-    : seed(passSeed),
-      index(passIndex),
-      photons(count),
-      bands(chooseBands(scene, spectrum, random)),
-      places(random),
-      firstChoice(random.uniform()) {}
+PhotonPass photonPass(const Scene& scene, Spectrum spectrum, uint64_t seed, uint64_t index,
+                      uint32_t photons) {
+  Random random = randomOf(seed, index, ~uint64_t{0});
+  return {seed, index, photons, chooseBands(scene, spectrum, random)};
+}
 
 PhotonTracer::PhotonTracer(const Scene& scene, const Boundaries& sceneBoundaries, const Lights& sceneLights,
                            Paths followed)
@@ -71,8 +64,8 @@ FluxLedger PhotonTracer::trace(const PhotonPass& pass, uint32_t first, uint32_t 
 }
 
 PhotonTracer::Photon PhotonTracer::emit(const PhotonPass& pass, uint32_t index, Random& random) const {
-  const float choice = (float(index) + pass.firstChoice) / float(pass.photons);
-  const EmittedPhoton emitted = lights.emit(choice, random.uniform(), pass.places[index]);
+  const double choice = (double(index) + random.uniform()) / pass.photons;
+  const EmittedPhoton emitted = lights.emit(choice, random.uniform());
   Photon photon;
   photon.emitted = emitted.flux / float(pass.photons);
   photon.path.direction = emitted.direction;
@@ -92,13 +85,14 @@ bool PhotonTracer::fly(Random& random, Photon& photon, PhotonVisitor& visitor, F
   segment.ray = photon.ray;
   segment.length = isHit ? hit.distance : std::numeric_limits<float>::infinity();
   segment.flux = photon.flux();
+  segment.metCaster = path.metCaster;
   segment.isInAir = path.media.top() == kNone;
   if (!photon.comesFromAfar) segment.extinction = boundaries.extinctionIn(path.media.top());
   segment.endsOnReceiver = isHit && !boundaries.isCaster(hit);
   segment.isDispersed = path.isDispersed;
   segment.band = photon.band;
   segment.sample = random.uniform();
-  if (path.metCaster) visitor.segment(segment);
+  visitor.segment(segment);
   if (segment.extinction != vec3(0)) path.throughput *= glm::exp(-segment.extinction * segment.length);
   const vec3 flux = photon.flux();
   ledger.absorbed += glm::dvec3(segment.flux) - glm::dvec3(flux);

@@ -11,10 +11,11 @@ namespace nephroid {
 
 // A photon on its way from one place to the next. Its flux is without the weight of its band.
 struct PhotonSegment {
-  Ray ray;             // m
-  float length = 0;    // m; infinite where it escapes
-  vec3 flux{0};        // lm at the start
-  vec3 extinction{0};  // 1/m of what it is in
+  Ray ray;                 // m
+  float length = 0;        // m; infinite where it escapes
+  vec3 flux{0};            // lm at the start
+  vec3 extinction{0};      // 1/m of what it is in
+  bool metCaster = false;  // before; if not, it is direct light
   bool isInAir = false;
   bool endsOnReceiver = false;
   bool isDispersed = false;
@@ -22,12 +23,12 @@ struct PhotonSegment {
   float sample = 0;   // uniform in [0, 1), for the visitor
 };
 
-// Is told of photons that have met a caster.
+// Is told where photons go.
 class PhotonVisitor {
  public:
   virtual ~PhotonVisitor() = default;
   virtual void segment(const PhotonSegment&) {}
-  // The end of a segment on a diffuse surface; `flux` (lm) as it arrives.
+  // The end of a segment on a diffuse surface, of a photon that met a caster; `flux` (lm) as it arrives.
   virtual void landing(const PhotonSegment&, const Hit&, vec3 flux) { static_cast<void>(flux); }
 };
 
@@ -47,15 +48,9 @@ struct PhotonPass {
   uint64_t index;
   uint32_t photons;
   std::vector<Band> bands;
-  EvenPoints places;
-  float firstChoice;  // in [0, 1): the first photon's place among the lights
-
-  PhotonPass(const Scene& scene, Spectrum spectrum, uint64_t passSeed, uint64_t passIndex, uint32_t count);
-
- private:
-  PhotonPass(const Scene& scene, Spectrum spectrum, uint64_t passSeed, uint64_t passIndex, uint32_t count,
-             Random random);
 };
+
+PhotonPass photonPass(const Scene& scene, Spectrum spectrum, uint64_t seed, uint64_t index, uint32_t photons);
 
 class PhotonTracer {
  public:

@@ -83,24 +83,20 @@ inline Random randomOf(uint64_t seed, uint64_t pass, uint64_t item) {
   return Random(mixed, item);
 }
 
-// Points of the plane-filling sequence R2 (Roberts 2018), shifted at random: each is uniform, all together
-// even.
-class EvenPoints {
- public:
-  explicit EvenPoints(Random& random) : shift{words(random), words(random)} {}
-  vec2 operator[](uint64_t index) const {
-    return {toUnit(shift[0] + index * 0xc13fa9a902a6328fULL),
-            toUnit(shift[1] + index * 0x91e10da5c79e7b1cULL)};
-  }
-
- private:
-  static uint64_t words(Random& random) {
-    const uint64_t high = random.next();
-    return high << 32 | random.next();
-  }
-  static float toUnit(uint64_t word) { return static_cast<float>(word >> 40) * 0x1p-24f; }
-
-  uint64_t shift[2];
-};
+// Where in the unit square a curve through all of it (Morton 1966) is at `u` in [0, 1). Parts of the curve
+// are compact parts of the square: numbers spread evenly give points spread evenly, and neighbours are near
+// each other.
+inline vec2 pointOnCurve(double u) {
+  const auto everyOtherBit = [](uint64_t x) {
+    x &= 0x5555555555555555ULL;
+    x = (x | x >> 1) & 0x3333333333333333ULL;
+    x = (x | x >> 2) & 0x0f0f0f0f0f0f0f0fULL;
+    x = (x | x >> 4) & 0x00ff00ff00ff00ffULL;
+    x = (x | x >> 8) & 0x0000ffff0000ffffULL;
+    return static_cast<float>((x | x >> 16) & 0xffffffULL) * 0x1p-24f;
+  };
+  const auto bits = static_cast<uint64_t>(u * 0x1p48);
+  return {everyOtherBit(bits), everyOtherBit(bits >> 1)};
+}
 
 }  // namespace nephroid

@@ -30,6 +30,7 @@ class SensorVisitor final : public PhotonVisitor {
   }
 
   void segment(const PhotonSegment& segment) override {
+    if (!segment.metCaster) return;
     const glm::dvec3 origin(segment.ray.origin), direction(segment.ray.direction);
     const double approach = dot(direction, normal);
     if (approach >= 0) return;
@@ -90,7 +91,7 @@ void ReferenceSensor::pass() {
 }
 
 std::vector<vec3> ReferenceSensor::countPhotons() {
-  const PhotonPass pass(scene, settings.spectrum, settings.seed, passesDone, settings.photons);
+  const PhotonPass pass = photonPass(scene, settings.spectrum, settings.seed, passesDone, settings.photons);
   const std::vector<SensorVisitor> groups =
       tracePass(tracer, pass, SensorVisitor(sensor, pass.bands, toleranceOf(boundaries.rayScene())), flux);
   ++passesTraced;

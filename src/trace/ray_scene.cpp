@@ -87,6 +87,27 @@ RTCRayHit embreeQuery(const Ray& ray) {
   return query;
 }
 
+// All that a hit is described by, in one place of memory: a ray through a large mesh finds none of it in a
+// cache.
+struct TracedTriangle {
+  mat3 positions;  // m
+  mat3 normals;    // unit
+  vec3 flatNormal;
+  uint32_t patch;
+};
+
+std::vector<TracedTriangle> tracedTriangles(const Mesh& mesh) {
+  const std::vector<uint32_t> patches = smoothPatches(mesh);
+  std::vector<TracedTriangle> triangles(mesh.triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const uvec3& c = mesh.triangles[i];
+    const mat3 corners(mesh.positions[c.x], mesh.positions[c.y], mesh.positions[c.z]);
+    triangles[i] = {corners, mat3(mesh.normals[c.x], mesh.normals[c.y], mesh.normals[c.z]),
+                    glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0])), patches[i]};
+  }
+  return triangles;
+}
+
 float volumeOf(const Mesh& mesh) {
   if (!mesh.isClosed) return std::numeric_limits<float>::infinity();
   double sum = 0;
@@ -110,13 +131,21 @@ using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneReleas
 struct RayScene::Impl {
   struct TracedMesh {
     const Mesh* mesh;
-    std::vector<uint32_t> patches;
+    std::vector<TracedTriangle> triangles;
     SceneHandle scene;
     float volume;  // m3 in the mesh's own space; infinite where it is open
   };
   struct TracedObject {
     uint32_t mesh;
-    Placement placement;
+    float scale;
+    mat3 rotation;
+    vec3 translation;
+    TracedObject(uint32_t meshIndex, const Placement& placement)
+        : mesh(meshIndex),
+          scale(placement.scale),
+          rotation(glm::mat3_cast(placement.rotation)),
+          translation(placement.translation) {}
+    vec3 point(vec3 p) const { return rotation * (scale * p) + translation; }
   };
 
   DeviceHandle device{rtcNewDevice(nullptr)};
@@ -146,7 +175,7 @@ struct RayScene::Impl {
     rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene.get());
-    meshes.push_back({&mesh, smoothPatches(mesh), std::move(scene), volumeOf(mesh)});
+    meshes.push_back({&mesh, tracedTriangles(mesh), std::move(scene), volumeOf(mesh)});
   }
 
   RTCScene root() const { return top ? top.get() : meshes[0].scene.get(); }
@@ -164,39 +193,36 @@ struct RayScene::Impl {
     hit.object = top ? query.hit.instID[0] : 0;
     const TracedObject& object = objects[hit.object];
     const TracedMesh& traced = meshes[object.mesh];
-    const Mesh& mesh = *traced.mesh;
+    const TracedTriangle& triangle = traced.triangles[query.hit.primID];
     hit.distance = query.ray.tfar;
     hit.triangle = query.hit.primID;
     hit.barycentric = {query.hit.u, query.hit.v};
-    hit.patch = traced.patches[hit.triangle];
-    const uvec3& corners = mesh.triangles[hit.triangle];
+    hit.patch = triangle.patch;
     const vec3 weights(1 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
-    const mat3 positions(mesh.positions[corners.x], mesh.positions[corners.y], mesh.positions[corners.z]);
-    const mat3 normals(mesh.normals[corners.x], mesh.normals[corners.y], mesh.normals[corners.z]);
-    const vec3 flatNormal =
-        glm::normalize(glm::cross(positions[1] - positions[0], positions[2] - positions[0]));
-    hit.geometricNormal = object.placement.direction(flatNormal);
+    const mat3& positions = triangle.positions;
+    const mat3& normals = triangle.normals;
+    hit.geometricNormal = object.rotation * triangle.flatNormal;
     // From the triangle rather than along the ray: nearer to the surface when the ray is long.
     const vec3 flat = positions * weights;
-    hit.flatPosition = object.placement.point(flat);
-    if (!mesh.isCurved) {
+    hit.flatPosition = object.point(flat);
+    if (!traced.mesh->isCurved) {
       hit.position = hit.flatPosition;
-      hit.normal = object.placement.direction(glm::normalize(normals * weights));
+      hit.normal = object.rotation * glm::normalize(normals * weights);
       return;
     }
     // On along the ray to the plane through the curved surface's point, and the smooth normal over there.
     const vec3 direction =
-        object.placement.inverseDirection(vec3(query.ray.dir_x, query.ray.dir_y, query.ray.dir_z));
+        glm::transpose(object.rotation) * vec3(query.ray.dir_x, query.ray.dir_y, query.ray.dir_z);
     const vec3 rise = curvedOffset(flat, weights, positions, normals);
-    const vec3 curved = flat + alongRayToPlane(direction, rise, flatNormal);
-    hit.position = object.placement.point(curved);
-    hit.normal = object.placement.direction(glm::normalize(normals * barycentricOf(curved, positions)));
+    const vec3 curved = flat + alongRayToPlane(direction, rise, triangle.flatNormal);
+    hit.position = object.point(curved);
+    hit.normal = object.rotation * glm::normalize(normals * barycentricOf(curved, positions));
   }
 };
 
 RayScene::RayScene(const Mesh& mesh) : impl(std::make_unique<Impl>()) {
   impl->addMesh(mesh);
-  impl->objects.push_back({0, Placement{}});
+  impl->objects.emplace_back(0, Placement{});
   impl->updateExtent();
 }
 
@@ -222,7 +248,7 @@ void RayScene::place(const Scene& scene) {
   impl->objects.clear();
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    impl->objects.push_back({object.mesh, object.placement});
+    impl->objects.emplace_back(object.mesh, object.placement);
     const mat3 linear = glm::mat3_cast(object.placement.rotation) * object.placement.scale;
     const glm::mat4x3 transform(linear[0], linear[1], linear[2], object.placement.translation);
     rtcSetGeometryTransform(impl->instances[i], 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &transform[0].x);
@@ -278,7 +304,7 @@ float RayScene::selfIntersectionDistance() const {
 }
 
 uint32_t RayScene::patchOf(uint32_t mesh, uint32_t triangle) const {
-  return impl->meshes[mesh].patches[triangle];
+  return impl->meshes[mesh].triangles[triangle].patch;
 }
 
 bool RayScene::isClosed(uint32_t object) const {
@@ -287,8 +313,7 @@ bool RayScene::isClosed(uint32_t object) const {
 
 float RayScene::enclosedVolume(uint32_t object) const {
   const Impl::TracedObject& traced = impl->objects[object];
-  const float scale = traced.placement.scale;
-  return impl->meshes[traced.mesh].volume * scale * scale * scale;
+  return impl->meshes[traced.mesh].volume * traced.scale * traced.scale * traced.scale;
 }
 
 Ray RayScene::leaving(const Hit& hit, vec3 direction) const {
