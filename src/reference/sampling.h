@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "core/random.h"
 #include "core/shared_language.h"
@@ -60,15 +61,20 @@ inline DistanceSample sampleExtinction(float u, float extinction, float length) 
   return {distance, extinction * std::exp(-extinction * distance) / scattered};
 }
 
-// A distance along a ray with a density as the inverse square of that to `point` (Kulla and Fajardo 2012).
+// A distance along a ray with a density as the inverse square of that to `point` (Kulla and Fajardo 2012). By
+// the angle seen from there, counted from the ray's origin: a difference of two angles would have no digits
+// left where the ray ends before a point that is nearly on its line.
 inline DistanceSample sampleEquiangular(float u, vec3 origin, vec3 direction, float length, vec3 point) {
   const float nearest = dot(point - origin, direction);  // m along the ray
   const float height = std::max(glm::length(point - origin - nearest * direction), 1e-6f);
-  const float first = std::atan2(-nearest, height);
-  const float last = std::isinf(length) ? kPi / 2 : std::atan2(length - nearest, height);
-  const float offset = height * std::tan(glm::mix(first, last, u));
-  const float density = height / ((last - first) * (height * height + offset * offset));
-  return {glm::clamp(nearest + offset, 0.0f, length), density};
+  const float squared = height * height + nearest * nearest;  // m2 from the origin to the point
+  const float span = std::isinf(length) ? std::atan2(height, -nearest)
+                                        : std::atan2(height * length, squared - nearest * length);
+  const float sine = std::sin(u * span), cosine = std::cos(u * span);
+  const float reach = squared * sine / std::max(height * cosine + nearest * sine, 1e-30f);
+  const float distance = glm::clamp(reach, 0.0f, std::min(length, std::numeric_limits<float>::max()));
+  const float beyond = distance - nearest;
+  return {distance, height / (span * (height * height + beyond * beyond))};
 }
 
 // Random numbers of one item of a pass: the same whichever thread asks, and unlike those of its neighbours.
