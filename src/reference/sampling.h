@@ -79,8 +79,8 @@ inline DistanceSample sampleEquiangular(float u, vec3 origin, vec3 direction, fl
 
 // Random numbers of one item of a pass: the same whichever thread asks, and unlike those of its neighbours.
 inline Random randomOf(uint64_t seed, uint64_t pass, uint64_t item) {
-  uint64_t mixed = seed;
-  for (const uint64_t word : {pass, item}) {  // splitmix64 (Steele et al. 2014)
+  uint64_t mixed = 0;
+  for (const uint64_t word : {seed, pass, item}) {  // splitmix64 (Steele et al. 2014)
     mixed = (mixed ^ word) + 0x9e3779b97f4a7c15ULL;
     mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9ULL;
     mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebULL;
