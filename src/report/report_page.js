@@ -78,7 +78,7 @@
   const table = (side) => {
     const hasSensor = Boolean(side.sensor);
     const titles = ["", "layer", "flux ratio", "relative RMSE", "of it noise", "MAPE", "pixels counted",
-      hasSensor ? "z" : "LDR-FLIP", "time per frame", "to prepare", "memory"];
+      hasSensor ? "z" : "LDR-FLIP", hasSensor ? "time to read" : "time per frame", "to prepare", "memory"];
     const head = titles.map((title, i) => element("th", { scope: "col", ...(i === 1 ? { class: "layer" } : {}) }, title));
     return element("div", { class: "card scroll", tabindex: 0, role: "region", "aria-label": "Errors and times" },
       element("table", {}, element("thead", {}, element("tr", {}, ...head)), referenceRows(side),
@@ -125,7 +125,7 @@
 
   const tile = (value, text) => element("div", { class: "card" }, element("b", {}, value), element("span", {}, text));
 
-  const tiles = (technique) => {
+  const tiles = (side, technique) => {
     const layers = technique.layers;
     const name = ["caustics seen directly", "caustics", "total"].find((layer) => layer in layers);
     const layer = layers[name];
@@ -133,7 +133,7 @@
       tile(plain(layer.flux_ratio), `flux ratio, ${name}`),
       tile(percent(layer.relative_rmse), `relative RMSE, ${name}; ${percent(layer.noise_floor)} is noise`),
       technique.ldr_flip ? tile(plain(technique.ldr_flip.mean), "LDR-FLIP, mean") : tile(plain(layer.z_score_rms, 2), `z, ${name}`),
-      tile(duration(technique.frame_ms), "time per frame"));
+      tile(duration(technique.frame_ms), side.sensor ? "time to read" : "time per frame"));
   };
 
   const leftOut = (name) => {
@@ -163,7 +163,7 @@
     element("div", { class: "heading" }, element("h2", {}, technique.name),
       element("p", {}, side.sensor ? `on the sensor ${side.sensor}, against counted photons` : `source ${technique.source}, on ${technique.device}`)),
     element("div", { class: "technique" }, slider(side, shown, index),
-      element("aside", {}, tiles(technique), side.sensor ? null : leftOut(technique.name))),
+      element("aside", {}, tiles(side, technique), side.sensor ? null : leftOut(technique.name))),
     element("div", { class: "maps" }, ...shown.maps[index].map((map) => mapFigure(map, side.size))));
 
   const sideSections = (side, shown, title, note) => [
