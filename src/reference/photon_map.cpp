@@ -30,6 +30,20 @@ PhotonMap::PhotonMap(std::vector<StoredPhoton> photons, float cell) : inverseCel
   for (std::size_t i = 0; i < photons.size(); ++i) sorted[next[buckets[i]]++] = photons[i];
 }
 
+vec2 PhotonMap::reach(vec3 origin, vec3 direction, float length, float radius) const {
+  vec2 part(0, sorted.empty() ? 0 : length);
+  for (int axis = 0; axis < 3; ++axis) {
+    const float toLow = low[axis] - radius - origin[axis], toHigh = high[axis] + radius - origin[axis];
+    if (direction[axis] == 0) {
+      if (toLow > 0 || toHigh < 0) return vec2(0);
+      continue;
+    }
+    const float a = toLow / direction[axis], b = toHigh / direction[axis];
+    part = {std::max(part.x, std::min(a, b)), std::min(part.y, std::max(a, b))};
+  }
+  return part;
+}
+
 // Teschner et al. 2003.
 uint32_t PhotonMap::bucketOf(Cell cell) const {
   const uint32_t mixed =

@@ -23,6 +23,10 @@ class PhotonMap {
   // `cell`: m, about the diameter that is asked for.
   PhotonMap(std::vector<StoredPhoton> photons, float cell);
 
+  // The part of a ray, from and to (m), that comes nearer than `radius` to the box around all photons; empty
+  // where the second is not above the first.
+  vec2 reach(vec3 origin, vec3 direction, float length, float radius) const;
+
   // Calls visit(photon, squared distance) for each photon nearer than `radius` (m), in an order that depends
   // on the photons alone.
   template <class Visit>

@@ -151,20 +151,30 @@ vec3 Sight::scatteredFromLight(const View& view, float length, uint32_t source, 
          std::exp(-extinction * onTheWay) / sample.density;
 }
 
+// By the photons in balls around a few places, each in a part of its own of what photons can be near.
 vec3 Sight::scatteredFromCasters(const View& view, float length, const PassLight& light,
                                  Random& random) const {
+  constexpr uint32_t kPlaces = 4;
   const float extinction = scene.medium->extinction;
-  const DistanceSample sample = sampleExtinction(random.uniform(), extinction, length);
-  const float radius =
-      std::min(light.airRadius * (view.travelled + sample.distance), 3 * light.largestRadius);
+  const float largest = 3 * light.largestRadius;
+  const vec2 part = light.inAir.reach(view.ray.origin, view.ray.direction, length, largest);
   vec3 sum(0);
-  const vec3 point = view.ray.origin + sample.distance * view.ray.direction;
-  light.inAir.around(point, radius, [&](const StoredPhoton& photon, float squared) {
-    sum += fluxInBand(photon, view.path.isDispersed, view.band, light.bands) *
-           (phase(-dot(photon.direction, view.ray.direction)) * (1 - squared / (radius * radius)));
-  });
-  return sum * (15 / (8 * kPi * radius * radius * radius) * std::exp(-extinction * sample.distance) /
-                sample.density);
+  if (!(part.y > part.x)) return sum;
+  for (uint32_t i = 0; i < kPlaces; ++i) {
+    const DistanceSample sample =
+        sampleExtinction((float(i) + random.uniform()) / float(kPlaces), extinction, part.y - part.x);
+    const float distance = part.x + sample.distance;
+    const float radius = std::min(light.airRadius * (view.travelled + distance), largest);
+    const vec3 point = view.ray.origin + distance * view.ray.direction;
+    vec3 near(0);
+    light.inAir.around(point, radius, [&](const StoredPhoton& photon, float squared) {
+      near += fluxInBand(photon, view.path.isDispersed, view.band, light.bands) *
+              (phase(-dot(photon.direction, view.ray.direction)) * (1 - squared / (radius * radius)));
+    });
+    const float kernel = 15 / (8 * kPi * radius * radius * radius);  // 1/m3
+    sum += near * (kernel * std::exp(-extinction * distance) / (sample.density * float(kPlaces)));
+  }
+  return sum;
 }
 
 }  // namespace nephroid
