@@ -48,8 +48,8 @@ struct ConeParts {
 };
 
 EmittedPhoton emitted(const Lights& lights, Random& random) {
-  const float choice = random.uniform(), along = random.uniform(), first = random.uniform();
-  return lights.emit(choice, along, {first, random.uniform()});
+  const double coarse(random.uniform()), fine(random.uniform());
+  return lights.emit(coarse + fine * 0x1p-24, random.uniform());
 }
 
 void expectFlux(const Scene& scene, Aim aim, const ConeParts& parts,

@@ -117,28 +117,21 @@ TEST(Sampling, OfDistancesIsEvenInTheAngleSeenFromALight) {
   }
 }
 
-TEST(Sampling, OfEvenPointsIsUniformForEveryOne) {
-  for (const uint64_t index : {0u, 1u, 12345u, (1u << 24) - 1}) {
-    WeightedHistogram parts(16 * 16);
-    for (int i = 0; i < kSamples; ++i) {
-      Random random(9, uint64_t(i));
-      const vec2 point = EvenPoints(random)[index];
-      parts.add(binOf(double(point.x), 16) * 16 + binOf(double(point.y), 16));
-    }
-    parts.expectUniform();
-  }
-}
-
-TEST(Sampling, OfEvenPointsLeavesNoGaps) {
+TEST(Sampling, OfACurveIsUniformInTheSquare) {
   Random random(6);
-  const EvenPoints points(random);
-  // Of random points a part of a 1024th would hold 64 +- 8, and among so many one would hold less than 40.
-  std::vector<int> counts(32 * 32, 0);
-  for (uint64_t i = 0; i < 1 << 16; ++i) {
-    const uvec2 part(points[i] * 32.0f);
-    ++counts[part.y * 32 + part.x];
+  WeightedHistogram parts(16 * 16);
+  for (int i = 0; i < kSamples; ++i) {
+    const vec2 point = pointOnCurve(double(random.uniform()) + double(random.uniform()) * 0x1p-24);
+    parts.add(binOf(double(point.x), 16) * 16 + binOf(double(point.y), 16));
   }
-  for (const int count : counts) EXPECT_NEAR(count, 64, 8);
+  parts.expectUniform();
+  // Even numbers are even in the square: one in each of so many parts.
+  std::vector<int> counts(256 * 256, 0);
+  for (int i = 0; i < 256 * 256; ++i) {
+    const uvec2 part(pointOnCurve((double(i) + double(random.uniform())) / (256 * 256)) * 256.0f);
+    ++counts.at(part.y * 256 + part.x);
+  }
+  for (const int count : counts) ASSERT_EQ(count, 1);
 }
 
 TEST(Sampling, ItemsOfPassesHaveNumbersOfTheirOwn) {
