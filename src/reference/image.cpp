@@ -5,9 +5,9 @@
 namespace nephroid {
 namespace {
 
-constexpr float kFirstRadius = 2;       // pixels, of the first pass, on surfaces
-constexpr float kFirstRadiusInAir = 6;  // pixels
-constexpr float kShrinking = 2.0f / 3;  // alpha of Knaus and Zwicker 2011, eq. 15
+constexpr float kFirstRadius = 2;        // pixels, of the first pass, on surfaces
+constexpr float kFirstRadiusInAir = 10;  // pixels
+constexpr float kShrinking = 2.0f / 3;   // alpha of Knaus and Zwicker 2011, eq. 15
 
 // What is left of the first pass's area or volume in the pass of an index from 0.
 float kernelLeft(uint32_t pass) {

@@ -130,7 +130,7 @@ void warnAboutScene(const Scene& scene, SceneReport& report) {
     warnings.push_back(counted(report.droppedTriangles, "triangle", "triangles") +
                        " without an area left out");
   }
-  if (scene.medium) warnings.push_back("the medium is not rendered by this version");
+  if (scene.medium) warnings.push_back("the medium is drawn by --technique reference alone");
   for (const Light& light : scene.lights) {
     if (const std::string why = whyNotDrawable(light); !why.empty()) warnings.push_back(why);
   }

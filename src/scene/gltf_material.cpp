@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scene/dispersion.h"
+
 namespace nephroid {
 namespace {
 
@@ -51,10 +53,7 @@ void readIor(const GltfFile& file, const tinygltf::ExtensionMap& extensions, Mat
   if (const auto* extension = extensionOf(extensions, "KHR_materials_dispersion")) {
     dispersion = gltfNumber(file, *extension, "dispersion", 0, 0, 100);
   }
-  // KHR_materials_dispersion: red and blue lie as far from green as the Abbe number 20 / dispersion has it.
-  const double halfSpread = std::min((ior - 1) * 0.025 * dispersion, ior - 1);
-  material.dispersion = static_cast<float>(dispersion);
-  material.ior = vec3(ior - halfSpread, ior, ior + halfSpread);
+  setDispersion(material, ior, dispersion);
 }
 
 glm::dmat3 textureTransform(const GltfFile& file, const tinygltf::TextureInfo& info, int& set) {

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "scene/dispersion.h"
 #include "scene/framing.h"
 #include "scene/gltf.h"
 #include "scene/mesh_checks.h"
@@ -13,11 +14,17 @@ namespace nephroid {
 namespace {
 
 constexpr Range kIor{0.1, 10};
+constexpr Range kAbbe{1, 10000};
 
 Material readDielectric(TomlTable& table) {
   Material material;
   material.color = vec3(1);
   material.ior = table.numberOrRgb("ior", kIor).value_or(material.ior);
+  if (const auto abbe = table.number("abbe", kAbbe)) {
+    if (material.isDispersive() || material.ior.y < 1)
+      table.fail("abbe", "needs an \"ior\" of one number, 1 or more: the index at 587.6 nm");
+    setDispersion(material, material.ior.y, 20 / *abbe);
+  }
   const auto color = table.vector3("attenuation_color", kFraction);
   const auto distance = table.number("attenuation_distance", kPositive);
   if (color && !distance) table.fail("attenuation_color", "needs \"attenuation_distance\" (m) beside it");
