@@ -117,7 +117,7 @@ bool PhotonTracer::meetCaster(const PhotonPass& pass, Random& random, Photon& ph
     ledger.lost += glm::dvec3(leaving);
     return false;
   }
-  photon.ray = boundaries.rayScene().leaving(photon.hit, photon.path.direction);
+  photon.ray = boundaries.rayScene().leavingTriangle(photon.hit, photon.path.direction);
   return true;
 }
 

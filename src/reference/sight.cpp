@@ -84,7 +84,7 @@ Seen Sight::look(const Ray& ray, const MediumStack& media, const PassLight& ligh
     boundaries.send(hit, light.bands[view.band], Carried::radiance, Paths::all, random, view.path);
     const vec3& left = view.path.throughput;
     if (std::max({left.x, left.y, left.z}) < kLeastThroughput) return seen;
-    view.ray = boundaries.rayScene().leaving(hit, view.path.direction);
+    view.ray = boundaries.rayScene().leavingTriangle(hit, view.path.direction);
   }
   return seen;
 }

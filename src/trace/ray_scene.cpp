@@ -322,6 +322,18 @@ Ray RayScene::leaving(const Hit& hit, vec3 direction) const {
   return {start, direction, selfIntersectionDistance()};
 }
 
+Ray RayScene::leavingTriangle(const Hit& hit, vec3 direction) const {
+  const Impl::TracedObject& object = impl->objects[hit.object];
+  const Impl::TracedMesh& traced = impl->meshes[object.mesh];
+  Ray ray = leaving(hit, direction);
+  if (!traced.mesh->isCurved) return ray;
+  const mat3& positions = traced.triangles[hit.triangle].positions;
+  const mat3 corners(object.point(positions[0]), object.point(positions[1]), object.point(positions[2]));
+  const vec3 weights = glm::max(barycentricOf(ray.origin, corners), vec3(0));
+  ray.origin = corners * (weights / (weights.x + weights.y + weights.z));
+  return ray;
+}
+
 std::size_t RayScene::replay(std::span<const Ray> rays) const {
   using Range = oneapi::tbb::blocked_range<std::size_t>;
   return oneapi::tbb::parallel_reduce(

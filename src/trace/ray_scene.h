@@ -67,6 +67,9 @@ class RayScene {
   // The ray that goes on along `direction` from where `hit` is on the curved surface: its line begins on the
   // flat triangle that was traced.
   Ray leaving(const Hit& hit, vec3 direction) const;
+  // The same from no farther than the rim of the triangle, for paths that keep count of what they are inside
+  // of: beyond it a ray would begin outside of the mesh, or inside, where it should not.
+  Ray leavingTriangle(const Hit& hit, vec3 direction) const;
 
   // The bare loop every ray rate is held against: nothing but Embree's closest hit, in parallel. Returns how
   // many rays hit.
