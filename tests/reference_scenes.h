@@ -12,6 +12,7 @@ namespace nephroid {
 inline Material glass(float ior = 1.5f) {
   Material material;
   material.type = MaterialType::dielectric;
+  material.color = vec3(1);
   material.ior = vec3(ior);
   return material;
 }
