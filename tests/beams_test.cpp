@@ -7,6 +7,7 @@
 
 #include "beams/build.h"
 #include "beams/deposit.h"
+#include "closed_forms.h"
 #include "optics/refraction.h"
 #include "render/measure.h"
 #include "scene/emitters.h"
@@ -169,29 +170,12 @@ TEST(Beams, ThroughFlatOpenWaterKeepTheCosineAndTheTransmittance) {
   for (const vec3& lux : causticsOf(setup)) ASSERT_NEAR(lux.y, expected, 0.005 * expected);
 }
 
-// The exit ray of a ball is known: light that comes in at distance h from the axis is turned by twice
-// (incidence - refraction). Illuminance of a ring on the floor is the flux of all h that land there over the
-// ring's area.
 TEST(Beams, OfABallMatchTheClosedFormBeforeInAndPastTheFocus) {
   for (const float height : {0.6f, 0.9f, 1.2f}) {
-    constexpr double kRadius = 0.5;
-    constexpr int kRings = 32, kSteps = 400000;
+    constexpr std::size_t kRings = 32;
     const double ringWidth = 0.5 / kRings;
-    std::vector<double> flux(kRings, 0.0);
-    for (int i = 0; i < kSteps; ++i) {
-      const double h = (i + 0.5) / kSteps * kRadius;
-      const double incidence = std::asin(h / kRadius), refraction = std::asin(h / kRadius / 1.5);
-      const double reflectance = double(fresnelReflectance(float(std::cos(incidence)), 1 / 1.5f));
-      const double turned = 2 * (incidence - refraction);
-      // It leaves on the far side, at this angle from the axis.
-      const double exitAngle = 2 * refraction - incidence;
-      const double exitX = kRadius * std::sin(exitAngle),
-                   exitY = double(height) - kRadius * std::cos(exitAngle);
-      const double landing = std::abs(exitX - exitY * std::tan(turned));
-      const auto ring = std::size_t(landing / ringWidth);
-      if (ring < flux.size())
-        flux[ring] += 1000 * 2 * kPi * h * (kRadius / kSteps) * (1 - reflectance) * (1 - reflectance);
-    }
+    std::vector<double> flux = ballLensRings(0.5, double(height), 1.5, ringWidth, kRings);
+    for (double& lumens : flux) lumens *= 1000;
     Arrangement setup = underTheSun(makeSphere(0.5f, {.vertices = 25600}), height);
     setup.sensor = {"floor", {-0.5f, 0, -0.5f}, {1, 0, 0}, {0, 0, 1}, {512, 512}};
     const SensorLayer layer = causticsOf(setup);
@@ -207,7 +191,7 @@ TEST(Beams, OfABallMatchTheClosedFormBeforeInAndPastTheFocus) {
     EXPECT_NEAR(std::accumulate(measured.begin(), measured.end(), 0.0), all, 0.005 * all)
         << "height " << height;
     // A texel is an eighth of a ring: what straddles two rings is told apart only so far.
-    for (int ring = 0; ring < kRings; ++ring)
+    for (std::size_t ring = 0; ring < kRings; ++ring)
       EXPECT_NEAR(measured[ring], flux[ring], 0.04 * flux[ring] + 0.004 * all)
           << "height " << height << ", ring " << ring;
   }
