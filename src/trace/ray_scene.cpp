@@ -187,6 +187,7 @@ struct RayScene::Impl {
     const vec3 upper(bounds.upper_x, bounds.upper_y, bounds.upper_z);
     const vec3 largest = glm::max(glm::abs(lower), glm::abs(upper));
     extent = std::max({largest.x, largest.y, largest.z});
+    if (!std::isfinite(extent)) extent = 0;  // nothing is there
   }
 
   void describe(const RTCRayHit& query, Hit& hit) const {
