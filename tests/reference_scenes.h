@@ -1,11 +1,14 @@
 // Scenes put together in a few lines, for tests of the reference renderer.
 #pragma once
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "reference/image.h"
 #include "reference/sensor.h"
 #include "scene/shapes.h"
+#include "statistics.h"
 
 namespace nephroid {
 
@@ -99,6 +102,33 @@ inline Image seen(const Scene& scene, uint32_t passes, const ReferenceSettings& 
   ReferenceImage image(scene, rays, settings);
   runPasses(image, passes);
   return image.image();
+}
+
+// For each channel, the means over square blocks of `blockSize` pixels, in rows, of what each of so many
+// passes sees by itself: pixels of a pass share photons, passes share nothing.
+inline std::vector<std::vector<SampleMean>> blockMeans(Estimate& estimate,
+                                                       const std::vector<std::string>& channels,
+                                                       uint32_t passes, uint32_t blockSize) {
+  std::vector<std::vector<SampleMean>> means(channels.size());
+  std::vector<std::vector<double>> before(channels.size());
+  for (uint32_t pass = 1; pass <= passes; ++pass) {
+    estimate.pass();
+    const Image image = estimate.image();
+    const uint32_t across = image.width / blockSize;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const std::vector<float>& values = *image.find(channels[c]);
+      std::vector<double> sums(std::size_t(across) * (image.height / blockSize), 0.0);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        sums.at(i / image.width / blockSize * across + i % image.width / blockSize) +=
+            double(values[i]) * pass / (blockSize * blockSize);
+      means[c].resize(sums.size());
+      before[c].resize(sums.size());
+      for (std::size_t block = 0; block < sums.size(); ++block)
+        means[c][block].add(sums[block] - before[c][block]);
+      before[c] = sums;
+    }
+  }
+  return means;
 }
 
 }  // namespace nephroid

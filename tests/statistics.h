@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -25,7 +26,7 @@ class SampleMean {
     ++count;
     const double step = value - average;
     average += step / count;
-    squares += step * (value - average);
+    squares += std::max(0.0, step * (value - average));
   }
   double mean() const { return average; }
   double standardError() const { return std::sqrt(squares / (count * (count - 1))); }
