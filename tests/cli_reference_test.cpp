@@ -123,10 +123,10 @@ TEST_F(ReferenceCommand, AnErrorAskedForIsReached) {
 }
 
 TEST_F(ReferenceCommand, InterruptedItKeepsWhatThereIs) {
-  const std::string command = "timeout --preserve-status -s INT 3 '" NEPHROID_PROGRAM "' render '" +
-                              at("scene.toml") +
-                              "' --technique reference --photons 2000 --size 32x24 --passes 100000000 -o '" +
-                              at("a.exr") + "' 2>'" + at("errors") + "'";
+  const std::string command =
+      "timeout --foreground --preserve-status -s INT 2 '" NEPHROID_PROGRAM "' render '" + at("scene.toml") +
+      "' --technique reference --photons 2000 --size 32x24 --passes 100000000 -o '" + at("a.exr") + "' 2>'" +
+      at("errors") + "'";
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);

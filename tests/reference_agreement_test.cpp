@@ -34,7 +34,7 @@ Arrangement lit(const Light& light, Mesh caster, const Material& material) {
   return made;
 }
 
-void expectAgreement(const Arrangement& arrangement) {
+void expectAgreement(const Arrangement& arrangement, SeenDirectly seen = SeenDirectly::gathered) {
   Scene scene = arrangement.scene;
   scene.camera.position = arrangement.center + vec3(0, arrangement.cameraHeight, 0);
   scene.camera.target = arrangement.center;
@@ -48,6 +48,7 @@ void expectAgreement(const Arrangement& arrangement) {
   ReferenceSensor meter(scene, rays, sensor, settings);
   const auto counted = blockMeans(meter, channels, kPasses, 1);
   settings.seed = 2;
+  settings.seenDirectly = seen;
   ReferenceImage image(scene, rays, settings);
   const auto looked = blockMeans(image, channels, kPasses, kPixels / kBlocks);
   for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -69,6 +70,10 @@ void expectAgreement(const Arrangement& arrangement) {
     EXPECT_LE(chiSquare, degrees > 0 ? chiSquareLimit(degrees) : 0)
         << channels[c] << ", of " << degrees << " degrees of freedom";
   }
+}
+
+TEST(Agreement, OnABallPutIntoThePicture) {
+  expectAgreement(lit(pointLight(kLamp), makeSphere(0.4f), glass()), SeenDirectly::splatted);
 }
 
 TEST(Agreement, OnABallUnderALamp) {

@@ -38,10 +38,11 @@ struct ConeParts {
     const double solidAngle = kTurn * width / double(kRings * kSectors * kFine * kFine);
     for (std::size_t ring = 0; ring < kRings * kFine; ++ring)
       for (std::size_t sector = 0; sector < kSectors * kFine; ++sector) {
-        const vec2 u((float(ring) + 0.5f) / float(kRings * kFine),
-                     (float(sector) + 0.5f) / float(kSectors * kFine));
-        parts[ring / kFine * kSectors + sector / kFine] +=
-            solidAngle * intensity(frame * sampleCone(u, float(width)));
+        const double drop = width * (double(ring) + 0.5) / double(kRings * kFine);
+        const double turn = kTurn * (double(sector) + 0.5) / double(kSectors * kFine);
+        const double sine = std::sqrt(drop * (2 - drop));
+        const vec3 local(sine * std::cos(turn), sine * std::sin(turn), 1 - drop);
+        parts[ring / kFine * kSectors + sector / kFine] += solidAngle * intensity(frame * local);
       }
     return parts;
   }

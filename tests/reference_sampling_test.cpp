@@ -287,7 +287,7 @@ TEST_F(SentOn, IsReflectedAsOftenAsFresnelSays) {
       WeightedHistogram choices(2);
       for (int i = 0; i < kSamples; ++i) {
         Path sent = path;
-        ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Paths::all, random, sent));
+        ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Choice::random, random, sent));
         const bool isReflected = sent.direction.y * path.direction.y < 0;
         choices.add(isReflected);
         ASSERT_EQ(sent.throughput, vec3(1));  // nothing is split, and flux knows no index
@@ -306,8 +306,8 @@ TEST_F(SentOn, CarriesTheSquareOfTheIndexAsRadianceAlone) {
     const double transmitted = 1 - double(fresnelReflectance(std::cos(glm::radians(20.0f)), float(eta)));
     Random random(11);
     Path flux = path, radiance = path;
-    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Paths::transmission, random, flux));
-    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::radiance, Paths::transmission, random, radiance));
+    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Choice::transmitted, random, flux));
+    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::radiance, Choice::transmitted, random, radiance));
     EXPECT_NEAR(flux.throughput.y, transmitted, 1e-5);
     EXPECT_NEAR(radiance.throughput.y, transmitted * eta * eta, 1e-5);
   }
@@ -324,7 +324,7 @@ TEST_F(SentOn, ByAThinWallGoesStraightOnOrComesBack) {
   WeightedHistogram choices(2);
   for (int i = 0; i < kSamples; ++i) {
     Path sent = path;
-    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Paths::all, random, sent));
+    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Choice::random, random, sent));
     const bool isReflected = sent.direction.y > 0;
     choices.add(isReflected);
     ASSERT_EQ(sent.throughput, isReflected ? vec3(1) : pane.color);

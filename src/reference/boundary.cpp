@@ -46,7 +46,7 @@ bool Boundaries::reflect(const Hit& hit, Carried carried, Path& path) const {
   return isSound || carried == Carried::radiance || isCurved[hit.object];
 }
 
-bool Boundaries::send(const Hit& hit, const Band& band, Carried carried, Paths paths, Random& random,
+bool Boundaries::send(const Hit& hit, const Band& band, Carried carried, Choice choice, Random& random,
                       Path& path) const {
   path.metCaster = true;
   const Material& material = *materials[hit.object];
@@ -55,11 +55,11 @@ bool Boundaries::send(const Hit& hit, const Band& band, Carried carried, Paths p
     return reflect(hit, carried, path);
   }
   if (material.isDispersive()) path.isDispersed = true;
-  if (material.thinWalled) return crossThinWall(hit, band, carried, paths, random.uniform(), path);
-  return crossDielectric(hit, band, carried, paths, random.uniform(), path);
+  if (material.thinWalled) return crossThinWall(hit, band, carried, choice, random.uniform(), path);
+  return crossDielectric(hit, band, carried, choice, random.uniform(), path);
 }
 
-bool Boundaries::crossDielectric(const Hit& hit, const Band& band, Carried carried, Paths paths, float u,
+bool Boundaries::crossDielectric(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
                                  Path& path) const {
   const bool entering = dot(path.direction, hit.geometricNormal) < 0;
   const float volume = rays.enclosedVolume(hit.object);
@@ -89,12 +89,11 @@ bool Boundaries::crossDielectric(const Hit& hit, const Band& band, Carried carri
   }
   const float reflectance =
       canTransmit ? fresnelReflectance(std::min(1.0f, -dot(path.direction, normal)), eta) : 1.0f;
-  if (paths == Paths::transmission) {
-    if (!canTransmit) return false;
-    path.throughput *= 1 - reflectance;
-  } else if (u < reflectance) {
+  if (choice == Choice::transmitted && !canTransmit) return false;
+  if (choice != Choice::random)
+    path.throughput *= choice == Choice::reflected ? reflectance : 1 - reflectance;
+  if (choice == Choice::reflected || (choice == Choice::random && u < reflectance))
     return reflect(hit, carried, path);
-  }
   path.direction = transmitted;
   path.media = beyond;
   if (carried == Carried::radiance) path.throughput *= eta * eta;
@@ -102,20 +101,18 @@ bool Boundaries::crossDielectric(const Hit& hit, const Band& band, Carried carri
 }
 
 // A sheet too thin to bend light: what both its faces let through, reflections between them included.
-bool Boundaries::crossThinWall(const Hit& hit, const Band& band, Carried carried, Paths paths, float u,
+bool Boundaries::crossThinWall(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
                                Path& path) const {
   const Material& material = *materials[hit.object];
   const Facing normals = facing(hit, path.direction);
   const float face = fresnelReflectance(std::min(1.0f, -dot(path.direction, normals.smooth)),
                                         1 / indexOfRefraction(material, band));
   const float transmitted = (1 - face) / (1 + face);
-  if (paths == Paths::transmission) {
-    path.throughput *= transmitted * material.color;
-  } else if (u < transmitted) {
-    path.throughput *= material.color;
-  } else {
+  if (choice != Choice::random)
+    path.throughput *= choice == Choice::reflected ? 1 - transmitted : transmitted;
+  if (choice == Choice::reflected || (choice == Choice::random && u >= transmitted))
     return reflect(hit, carried, path);
-  }
+  path.throughput *= material.color;
   return true;
 }
 

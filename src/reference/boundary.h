@@ -4,7 +4,6 @@
 #include "core/random.h"
 #include "reference/spectrum.h"
 #include "trace/media.h"
-#include "trace/paths.h"
 
 namespace nephroid {
 
@@ -21,14 +20,18 @@ struct Path {
   bool isDispersed = false;  // its band's weight counts
 };
 
+// Which way a path goes from glass, where it may go two: either, as often as light does; or one of them, with
+// the share of light that goes there as its weight.
+enum class Choice { random, reflected, transmitted };
+
 class Boundaries {
  public:
   // Both must outlive this.
   Boundaries(const Scene& scene, const RayScene& rays);
 
-  // Sends a path on from a caster: reflected or transmitted, each as often as its share, so that nothing is
-  // split. With Paths::transmission transmitted always and weighted by its share. False: it is lost.
-  bool send(const Hit& hit, const Band& band, Carried carried, Paths paths, Random& random, Path& path) const;
+  // Sends a path on from a caster. False: it is lost, or is to be transmitted and totally reflected.
+  bool send(const Hit& hit, const Band& band, Carried carried, Choice choice, Random& random,
+            Path& path) const;
 
   // The part of light that a length (m) of what the path is in lets through.
   vec3 transmittance(const Path& path, float length) const;
@@ -41,9 +44,9 @@ class Boundaries {
   vec3 extinctionIn(uint32_t object) const { return object == kNone ? airExtinction : extinctions[object]; }
 
  private:
-  bool crossDielectric(const Hit& hit, const Band& band, Carried carried, Paths paths, float u,
+  bool crossDielectric(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
                        Path& path) const;
-  bool crossThinWall(const Hit& hit, const Band& band, Carried carried, Paths paths, float u,
+  bool crossThinWall(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
                      Path& path) const;
   bool reflect(const Hit& hit, Carried carried, Path& path) const;
   float indexIn(uint32_t object, const Band& band) const;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "reference/air.h"
+
 namespace nephroid {
 namespace {
 
@@ -16,67 +18,17 @@ float kernelLeft(uint32_t pass) {
   return static_cast<float>(left);
 }
 
-// Keeps photons where they land and, once a segment, where they are in the air.
-class MapVisitor final : public PhotonVisitor {
- public:
-  explicit MapVisitor(bool keepsAir) : isAirKept(keepsAir) {}
-
-  void segment(const PhotonSegment& segment) override {
-    if (!isAirKept || !segment.metCaster || !segment.isInAir) return;
-    const float extinction = segment.extinction.x;
-    const DistanceSample sample = sampleExtinction(segment.sample, extinction, segment.length);
-    StoredPhoton photon = stored(segment, segment.flux);
-    photon.position = segment.ray.origin + sample.distance * segment.ray.direction;
-    photon.flux *= std::exp(-extinction * sample.distance) / sample.density;
-    photon.direction = segment.ray.direction;
-    inAir.push_back(photon);
-  }
-
-  void landing(const PhotonSegment& segment, const Hit& hit, vec3 flux) override {
-    const vec3 arriving = segment.ray.direction;
-    StoredPhoton photon = stored(segment, flux);
-    photon.direction = dot(arriving, hit.geometricNormal) < 0 ? hit.geometricNormal : -hit.geometricNormal;
-    const vec3 smooth = dot(hit.normal, photon.direction) < 0 ? -hit.normal : hit.normal;
-    // Receivers are lit by their smooth normals, photons land on triangles.
-    photon.flux *= glm::clamp(dot(arriving, smooth) / dot(arriving, photon.direction), 0.0f, 4.0f);
-    photon.position = hit.flatPosition;
-    photon.object = hit.object;
-    onSurfaces.push_back(photon);
-  }
-
-  std::vector<StoredPhoton> onSurfaces, inAir;
-
- private:
-  static StoredPhoton stored(const PhotonSegment& segment, vec3 flux) {
-    StoredPhoton photon;
-    photon.flux = flux;
-    photon.band = uint16_t(segment.band);
-    photon.isDispersed = segment.isDispersed;
-    return photon;
-  }
-
-  bool isAirKept;
-};
-
-std::vector<StoredPhoton> joined(std::vector<MapVisitor>& groups,
-                                 std::vector<StoredPhoton> MapVisitor::*part) {
-  std::vector<StoredPhoton> all;
+template <class T>
+std::vector<T> joined(std::vector<PhotonKeeper>& groups, std::vector<T> PhotonKeeper::*part) {
+  std::vector<T> all;
   std::size_t count = 0;
-  for (const MapVisitor& group : groups) count += (group.*part).size();
+  for (const PhotonKeeper& group : groups) count += (group.*part).size();
   all.reserve(count);
-  for (MapVisitor& group : groups) {
+  for (PhotonKeeper& group : groups) {
     all.insert(all.end(), (group.*part).begin(), (group.*part).end());
     (group.*part) = {};
   }
   return all;
-}
-
-mat3 cameraFrame(const Camera& camera, uvec2 size) {
-  const vec3 forward = normalize(camera.target - camera.position);
-  const vec3 up = std::abs(dot(forward, normalize(camera.up))) < 0.9999f ? camera.up : vec3(0, 0, -1);
-  const vec3 right = normalize(cross(forward, up));
-  const float tangent = std::tan(0.5f * glm::radians(camera.verticalFov));
-  return {right * (tangent * float(size.x) / float(size.y)), cross(right, forward) * tangent, forward};
 }
 
 }  // namespace
@@ -89,38 +41,37 @@ ReferenceImage::ReferenceImage(const Scene& sceneToSee, const RayScene& rays,
       lights(scene, Aim::casters),
       tracer(scene, boundaries, lights, settings.paths),
       sight(scene, boundaries, lights),
-      camera(cameraFrame(scene.camera, settings.size)),
-      pixelAngle(2 * length(camera[1]) / float(settings.size.y)),
+      camera(scene.camera, settings.size),
       mediaOfCamera(boundaries.mediaAround(scene.camera.position)),
       total(std::size_t(settings.size.x) * settings.size.y),
       direct(total),
       caustics(total),
       shafts(total) {}
 
-PassLight ReferenceImage::traceLight() const {
+PassLight ReferenceImage::traceLight(std::vector<Splat>& splats) const {
   const PhotonPass pass = photonPass(scene, settings.spectrum, settings.seed, passesDone, settings.photons);
-  const bool scatters = scene.medium && scene.medium->extinction * scene.medium->albedo > 0;
+  KeeperSettings keeping{&scene, &boundaries, &camera, &pass.bands, mediaOfCamera.top()};
+  keeping.keepsAir = scene.medium && scatteringCoefficient(*scene.medium) > 0;
+  keeping.splats = settings.seenDirectly == SeenDirectly::splatted;
   FluxLedger ledger;
-  std::vector<MapVisitor> groups = tracePass(tracer, pass, MapVisitor(scatters), ledger);
+  std::vector<PhotonKeeper> groups = tracePass(tracer, pass, PhotonKeeper(keeping), ledger);
+  splats = joined(groups, &PhotonKeeper::splats);
   const float left = kernelLeft(passesDone);
-  const float surfaceRadius = kFirstRadius * pixelAngle * std::sqrt(left);
-  const float airRadius = kFirstRadiusInAir * pixelAngle * std::cbrt(left);
+  const float surfaceRadius = kFirstRadius * camera.pixelHeight() * std::sqrt(left);
+  const float airRadius = kFirstRadiusInAir * camera.pixelHeight() * std::cbrt(left);
   const float middle = distance(scene.camera.target, scene.camera.position);  // m
   return {pass.bands,
-          PhotonMap(joined(groups, &MapVisitor::onSurfaces), 2 * surfaceRadius * middle),
-          PhotonMap(joined(groups, &MapVisitor::inAir), 2 * airRadius * middle),
+          PhotonMap(joined(groups, &PhotonKeeper::onSurfaces), 2 * surfaceRadius * middle),
+          PhotonMap(joined(groups, &PhotonKeeper::inAir), 2 * airRadius * middle),
           surfaceRadius,
           airRadius,
-          3 * surfaceRadius * middle};
-}
-
-Ray ReferenceImage::rayThrough(vec2 pixel) const {
-  const vec2 place = 2.0f * pixel / vec2(settings.size) - 1.0f;
-  return {scene.camera.position, normalize(camera[2] + place.x * camera[0] - place.y * camera[1])};
+          3 * surfaceRadius * middle,
+          keeping.splats};
 }
 
 void ReferenceImage::pass() {
-  const PassLight light = traceLight();
+  std::vector<Splat> splats;
+  const PassLight light = traceLight(splats);
   const std::size_t pixels = std::size_t(settings.size.x) * settings.size.y;
   std::vector<vec3> all(pixels), straight(pixels), fromCasters(pixels), inAir(pixels);
   oneapi::tbb::parallel_for(0u, settings.size.y, [&](uint32_t row) {
@@ -128,13 +79,17 @@ void ReferenceImage::pass() {
       const std::size_t i = std::size_t(row) * settings.size.x + column;
       Random random = randomOf(~settings.seed, passesDone, i);
       const vec2 pixel(float(column) + random.uniform(), float(row) + random.uniform());
-      const Seen seen = sight.look(rayThrough(pixel), mediaOfCamera, light, random);
+      const Seen seen = sight.look(camera.rayThrough(pixel), mediaOfCamera, light, random);
       straight[i] = seen.direct;
       fromCasters[i] = seen.caustics;
       inAir[i] = seen.shafts;
       all[i] = seen.direct + seen.caustics + seen.shafts + seen.rest;
     }
   });
+  for (const Splat& splat : splats) {
+    (splat.isInAir ? inAir : fromCasters)[splat.pixel] += splat.luminance;
+    all[splat.pixel] += splat.luminance;
+  }
   ++passesDone;
   total.add(all, passesDone);
   direct.add(straight, passesDone);
@@ -160,11 +115,11 @@ Image ReferenceImage::image() const {
   image.channel("depth.Z");
   for (const char* axis : {"normal.X", "normal.Y", "normal.Z"}) image.channel(axis);
   for (std::size_t i = 0; i < image.pixelCount(); ++i) {
-    const Ray ray = rayThrough(vec2(i % settings.size.x, i / settings.size.x) + 0.5f);
+    const Ray ray = camera.rayThrough(vec2(i % settings.size.x, i / settings.size.x) + 0.5f);
     Hit hit;
     if (!boundaries.rayScene().intersect(ray, hit)) continue;
     const vec3 normal = dot(ray.direction, hit.geometricNormal) < 0 ? hit.normal : -hit.normal;
-    image.channel("depth.Z")[i] = hit.distance * dot(ray.direction, camera[2]);
+    image.channel("depth.Z")[i] = hit.distance * dot(ray.direction, camera.forward());
     for (int axis = 0; axis < 3; ++axis)
       image.channel(std::string("normal.") + "XYZ"[axis])[i] = normal[axis];
   }

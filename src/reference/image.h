@@ -4,7 +4,9 @@
 #pragma once
 
 #include "reference/estimate.h"
+#include "reference/photon_keeper.h"
 #include "reference/photons.h"
+#include "reference/pinhole.h"
 #include "reference/refine.h"
 #include "reference/sight.h"
 
@@ -24,8 +26,7 @@ class ReferenceImage final : public Estimate {
   void restore(const Image& image, uint32_t passes) override;
 
  private:
-  PassLight traceLight() const;
-  Ray rayThrough(vec2 pixel) const;
+  PassLight traceLight(std::vector<Splat>& splats) const;
 
   const Scene& scene;
   ReferenceSettings settings;
@@ -33,8 +34,7 @@ class ReferenceImage final : public Estimate {
   Lights lights;
   PhotonTracer tracer;
   Sight sight;
-  mat3 camera;       // right, up, forward, the first two as long as half the picture at a metre
-  float pixelAngle;  // of a pixel in the middle: its height at a metre, m
+  Pinhole camera;
   MediumStack mediaOfCamera;
   RunningMean total, direct, caustics, shafts;
 };

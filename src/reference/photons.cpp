@@ -50,6 +50,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const Boundaries& sceneBoundaries
         lights.isDirectional(light) ? MediumStack{} : boundaries.mediaAround(lights.position(light, 0.5f)));
 }
 
+// The first glass sends two photons on: what it reflects is a small part of the light over a wide field,
+// which few whole photons would light with much noise.
 FluxLedger PhotonTracer::trace(const PhotonPass& pass, uint32_t first, uint32_t last,
                                PhotonVisitor& visitor) const {
   FluxLedger ledger;
@@ -57,10 +59,25 @@ FluxLedger PhotonTracer::trace(const PhotonPass& pass, uint32_t first, uint32_t 
     Random random = randomOf(pass.seed, pass.index, index);
     Photon photon = emit(pass, index, random);
     ledger.emitted += glm::dvec3(photon.emitted);
-    while (fly(random, photon, visitor, ledger) && meetCaster(pass, random, photon, ledger)) {
+    if (!fly(random, photon, visitor, ledger)) continue;
+    Choice choice = paths == Paths::transmission ? Choice::transmitted : Choice::random;
+    const Material& material = boundaries.materialOf(photon.hit);
+    if (choice == Choice::random && material.type == MaterialType::dielectric) {
+      Photon reflected = photon;
+      if (meetCaster(pass, Choice::reflected, random, reflected, ledger))
+        follow(pass, random, reflected, visitor, ledger);
+      choice = Choice::transmitted;
     }
+    if (meetCaster(pass, choice, random, photon, ledger)) follow(pass, random, photon, visitor, ledger);
   }
   return ledger;
+}
+
+void PhotonTracer::follow(const PhotonPass& pass, Random& random, Photon& photon, PhotonVisitor& visitor,
+                          FluxLedger& ledger) const {
+  const Choice choice = paths == Paths::transmission ? Choice::transmitted : Choice::random;
+  while (fly(random, photon, visitor, ledger) && meetCaster(pass, choice, random, photon, ledger)) {
+  }
 }
 
 PhotonTracer::Photon PhotonTracer::emit(const PhotonPass& pass, uint32_t index, Random& random) const {
@@ -103,21 +120,26 @@ bool PhotonTracer::fly(Random& random, Photon& photon, PhotonVisitor& visitor, F
   return isHit && !segment.endsOnReceiver;
 }
 
-// On from a caster. False: the photon is lost.
-bool PhotonTracer::meetCaster(const PhotonPass& pass, Random& random, Photon& photon,
+// On from a caster. False: the photon ends here.
+bool PhotonTracer::meetCaster(const PhotonPass& pass, Choice choice, Random& random, Photon& photon,
                               FluxLedger& ledger) const {
   const vec3 arriving = photon.flux();
   const bool goesOn =
-      boundaries.send(photon.hit, pass.bands[photon.band], Carried::flux, paths, random, photon.path);
+      boundaries.send(photon.hit, pass.bands[photon.band], Carried::flux, choice, random, photon.path);
   const vec3 leaving = photon.flux();
-  const bool isMirror = boundaries.materialOf(photon.hit).type == MaterialType::mirror;
-  (isMirror ? ledger.absorbed : ledger.lost) += glm::dvec3(arriving) - glm::dvec3(leaving);
+  const bool isSplit = paths == Paths::all && choice != Choice::random;  // the other part is a photon as well
+  if (!isSplit) {
+    const bool isLost =
+        paths == Paths::transmission && boundaries.materialOf(photon.hit).type == MaterialType::dielectric;
+    (isLost ? ledger.lost : ledger.absorbed) += glm::dvec3(arriving) - glm::dvec3(leaving);
+  }
+  if (!goesOn && isSplit && choice == Choice::transmitted) return false;  // all of it was reflected
   if (!goesOn || ++photon.encounters > kMostEncounters ||
       largest(photon.path.throughput) < kLeastThroughput) {
     ledger.lost += glm::dvec3(leaving);
     return false;
   }
-  photon.ray = boundaries.rayScene().leavingTriangle(photon.hit, photon.path.direction);
+  photon.ray = boundaries.rayScene().leaving(photon.hit, photon.path.direction);
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include "reference/boundary.h"
 #include "reference/lights.h"
 #include "reference/sampling.h"
+#include "trace/paths.h"
 
 namespace nephroid {
 
@@ -67,7 +68,10 @@ class PhotonTracer {
   struct Photon;
   Photon emit(const PhotonPass& pass, uint32_t index, Random& random) const;
   bool fly(Random& random, Photon& photon, PhotonVisitor& visitor, FluxLedger& ledger) const;
-  bool meetCaster(const PhotonPass& pass, Random& random, Photon& photon, FluxLedger& ledger) const;
+  bool meetCaster(const PhotonPass& pass, Choice choice, Random& random, Photon& photon,
+                  FluxLedger& ledger) const;
+  void follow(const PhotonPass& pass, Random& random, Photon& photon, PhotonVisitor& visitor,
+              FluxLedger& ledger) const;
 
   const Boundaries& boundaries;
   const Lights& lights;

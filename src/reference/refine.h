@@ -10,12 +10,17 @@
 
 namespace nephroid {
 
+// How photons come into the picture where no caster is between them and the camera: one by one with no
+// kernel, or as elsewhere, by a disc that shrinks from pass to pass.
+enum class SeenDirectly { splatted, gathered };
+
 struct ReferenceSettings {
   uvec2 size{640, 480};  // pixels of an image; a sensor has its own
   Paths paths = Paths::all;
   Spectrum spectrum = Spectrum::continuous;
   uint64_t seed = 1;
   uint32_t photons = 1u << 20;  // of a pass, at most 2^24
+  SeenDirectly seenDirectly = SeenDirectly::splatted;
 };
 
 // Something estimated by passes. Each depends on the settings and its own number alone, so that the result

@@ -20,20 +20,6 @@ inline mat3 frameAround(vec3 axis) {
           vec3(b, sign + axis.y * axis.y * a, -axis.y), axis};
 }
 
-// Uniform in the directions within a cone about +z, of which `width` is 1 - cosine of its half angle: 2 for
-// all.
-inline vec3 sampleCone(vec2 u, float width) {
-  const float drop = width * u.x;  // 1 - cosine
-  const float sine = std::sqrt(std::max(drop * (2 - drop), 0.0f));
-  const float turn = 2 * kPi * u.y;
-  return {sine * std::cos(turn), sine * std::sin(turn), 1 - drop};
-}
-
-// Per steradian.
-inline float coneDensity(float width) {
-  return 1 / (2 * kPi * width);
-}
-
 // Uniform in the unit disc; neighbours stay neighbours (Shirley and Chiu 1997).
 inline vec2 sampleDisc(vec2 u) {
   const vec2 p = 2.0f * u - 1.0f;
@@ -44,6 +30,19 @@ inline vec2 sampleDisc(vec2 u) {
   }
   const float turn = kPi / 2 - kPi / 4 * (p.x / p.y);
   return p.y * vec2(std::cos(turn), std::sin(turn));
+}
+
+// Uniform in the directions within a cone about +z, of which `width` is 1 - cosine of its half angle: 2 for
+// all. Neighbours stay neighbours (Lambert's azimuthal map of the disc).
+inline vec3 sampleCone(vec2 u, float width) {
+  const vec2 p = sampleDisc(u);
+  const float drop = width * dot(p, p);  // 1 - cosine
+  return {p * std::sqrt(std::max(width * (2 - drop), 0.0f)), 1 - drop};
+}
+
+// Per steradian.
+inline float coneDensity(float width) {
+  return 1 / (2 * kPi * width);
 }
 
 // A distance along a ray of `length` (may be infinite), with a density that falls as light does in air of

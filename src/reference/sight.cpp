@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "optics/phase.h"
+#include "reference/air.h"
 
 namespace nephroid {
 namespace {
@@ -81,7 +81,7 @@ Seen Sight::look(const Ray& ray, const MediumStack& media, const PassLight& ligh
       lookAtReceiver(view, hit, light, random, seen);
       return seen;
     }
-    boundaries.send(hit, light.bands[view.band], Carried::radiance, Paths::all, random, view.path);
+    boundaries.send(hit, light.bands[view.band], Carried::radiance, Choice::random, random, view.path);
     const vec3& left = view.path.throughput;
     if (std::max({left.x, left.y, left.z}) < kLeastThroughput) return seen;
     view.ray = boundaries.rayScene().leavingTriangle(hit, view.path.direction);
@@ -102,7 +102,8 @@ void Sight::lookAtReceiver(const View& view, const Hit& hit, const PassLight& li
   const vec3 reflected = diffuseReflectance(scene, hit) / kPi;  // 1/sr
   for (uint32_t source = 0; source < lights.count(); ++source)
     seen.direct += weight * reflected * directIlluminance(boundaries, lights, source, point, random);
-  seen.caustics += view.path.throughput * reflected * gather(view, hit, point.geometricNormal, light);
+  if (view.path.metCaster || !light.isSplatted)
+    seen.caustics += view.path.throughput * reflected * gather(view, hit, point.geometricNormal, light);
   seen.rest += weight * (reflected * scene.environment.ambient + boundaries.materialOf(hit).emission);
 }
 
@@ -118,19 +119,15 @@ vec3 Sight::gather(const View& view, const Hit& hit, vec3 normal, const PassLigh
   return sum * (2 / (kPi * radius * radius));
 }
 
-float Sight::phase(float cosine) const {
-  static constexpr uint32_t kTypes[] = {kPhaseIsotropic, kPhaseHenyeyGreenstein, kPhaseNishita};
-  return phaseFunction(kTypes[static_cast<std::size_t>(scene.medium->phase)], scene.medium->g, cosine);
-}
-
 // Light scattered once, in the air of the ray's next `length` (m).
 vec3 Sight::scattered(const View& view, float length, const PassLight& light, Random& random) const {
-  const float scattering = scene.medium->extinction * scene.medium->albedo;  // 1/m
+  const float scattering = scatteringCoefficient(*scene.medium);  // 1/m
   if (scattering <= 0) return vec3(0);
   vec3 sum(0);
   for (uint32_t source = 0; source < lights.count(); ++source)
     sum += view.weight(light) * scatteredFromLight(view, length, source, random);
-  sum += view.path.throughput * scatteredFromCasters(view, length, light, random);
+  if (view.path.metCaster || !light.isSplatted)
+    sum += view.path.throughput * scatteredFromCasters(view, length, light, random);
   return scattering * sum;
 }
 
@@ -147,7 +144,7 @@ vec3 Sight::scatteredFromLight(const View& view, float length, uint32_t source, 
   if (illumination.illuminance == vec3(0) || !(sample.density > 0)) return vec3(0);
   if (!isLit(boundaries.rayScene(), illumination, point, 0)) return vec3(0);
   const float onTheWay = sample.distance + (isDirectional ? 0 : illumination.distance);  // m
-  return illumination.illuminance * phase(-dot(illumination.direction, view.ray.direction)) *
+  return illumination.illuminance * phaseOf(*scene.medium, -dot(illumination.direction, view.ray.direction)) *
          std::exp(-extinction * onTheWay) / sample.density;
 }
 
@@ -169,7 +166,8 @@ vec3 Sight::scatteredFromCasters(const View& view, float length, const PassLight
     vec3 near(0);
     light.inAir.around(point, radius, [&](const StoredPhoton& photon, float squared) {
       near += fluxInBand(photon, view.path.isDispersed, view.band, light.bands) *
-              (phase(-dot(photon.direction, view.ray.direction)) * (1 - squared / (radius * radius)));
+              (phaseOf(*scene.medium, -dot(photon.direction, view.ray.direction)) *
+               (1 - squared / (radius * radius)));
     });
     const float kernel = 15 / (8 * kPi * radius * radius * radius);  // 1/m3
     sum += near * (kernel * std::exp(-extinction * distance) / (sample.density * float(kPlaces)));

@@ -24,6 +24,7 @@ struct PassLight {
   float surfaceRadius = 0;  // part of the distance travelled, around a place that is seen
   float airRadius = 0;
   float largestRadius = 0;  // m
+  bool isSplatted = false;  // where it is seen directly, and is not to be gathered there
 };
 
 class Sight {
@@ -50,7 +51,6 @@ class Sight {
   vec3 scattered(const View& view, float length, const PassLight& light, Random& random) const;
   vec3 scatteredFromLight(const View& view, float length, uint32_t source, Random& random) const;
   vec3 scatteredFromCasters(const View& view, float length, const PassLight& light, Random& random) const;
-  float phase(float cosine) const;
 
   const Scene& scene;
   const Boundaries& boundaries;

@@ -134,11 +134,14 @@ float receiverDepth(Line line) {
   const float texelsPerMetre = set.windows[constants.window].texelsPerMetre;
   const float range = set.farthestDepth - set.nearestDepth;
   float depth = max(set.firstDepth + 0.5 * float(set.planes - 1) * set.depthStep, line.startDepth);
-  for (int step = 0; step < 3; ++step) {
+  for (int step = 0; step < 4; ++step) {
     const vec2 place = placeAt(line, depth);
     const vec2 texel = clamp(floor(place), vec2(0), vec2(set.textureSize - 1));
     const float seen = texelFetch(seenDepths, ivec3(texel, constants.window), 0).r;
-    if (seen >= 1) break;
+    if (seen >= 1) {  // past the receivers' edge, or the window's: they are nearer to where the line comes from
+      depth = 0.5 * (depth + max(set.nearestDepth, line.startDepth));
+      continue;
+    }
     const float seenDepth = set.nearestDepth + seen * range;
     const vec3 normal = unpackedNormal(constants.normals.word[uint(texel.y) * set.textureSize + uint(texel.x)]);
     // Where the line stands over the tangent plane, and how fast it comes nearer.

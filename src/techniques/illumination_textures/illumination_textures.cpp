@@ -51,26 +51,38 @@ bool isOfOneColor(const std::vector<LitCaster>& lit) {
   return true;
 }
 
-// Whether all that the outer window's texture is asked for lies off this beam on this plane: the inner one
-// answers there, down to one and a half of the outer one's texels from its borders.
-bool isInsideInnerWindow(const Beam& beam, const PlaneSet& set, uint32_t plane) {
-  const PlaneGrid grid = planeGrid(set, plane, 0);
+// The depths (m along axisW) at which a corner ray may leave light: flat planes, or wherever receivers are.
+vec2 depthsOfDeposit(const Beam& beam, int corner, const PlaneSet& set, bool followsReceivers) {
+  const float start = dot(beam.position[corner], set.axisW);
+  const float lastPlane = set.firstDepth + float(set.planes - 1) * set.depthStep;
+  if (!followsReceivers) return {set.firstDepth, lastPlane};
+  const float arrival = start + 1.01f * beam.reach * dot(beam.direction[corner], set.axisW);
+  return {start, std::max(start, std::min(arrival, set.farthestDepth))};
+}
+
+// Whether all that the outer window's texture is asked for lies off this beam: the inner one answers there,
+// down to one and a half of the outer one's texels from its borders. Corner rays are straight: what is inside
+// at both ends is so between them.
+bool isInsideInnerWindow(const Beam& beam, const PlaneSet& set, bool followsReceivers) {
   const float border = 1 + 2 * set.windows[0].texelsPerMetre / set.windows[1].texelsPerMetre;
   for (int i = 0; i < 3; ++i) {
-    vec2 texel;
-    float distance;
-    if (!meetPlane(beam.position[i], beam.direction[i], grid, texel, distance)) return false;
-    if (std::min(texel.x, texel.y) <= border || std::max(texel.x, texel.y) >= float(set.textureSize) - border)
-      return false;
+    const float approach = dot(beam.direction[i], set.axisW);
+    if (approach < kLeastApproach) return false;
+    const vec2 depths = depthsOfDeposit(beam, i, set, followsReceivers);
+    for (const float depth : {depths.x, depths.y}) {
+      const float distance = (depth - dot(beam.position[i], set.axisW)) / approach;  // m
+      const vec2 texel = windowTexel(set, 0, beam.position[i] + distance * beam.direction[i]);
+      if (std::min(texel.x, texel.y) <= border ||
+          std::max(texel.x, texel.y) >= float(set.textureSize) - border)
+        return false;
+    }
   }
   return true;
 }
 
-// Corner rays are straight: what is inside on the first plane and on the last is so on those between.
-void putBeamsOfOuterWindowFirst(LitCaster& caster) {
-  const PlaneSet& set = caster.planes;
+void putBeamsOfOuterWindowFirst(LitCaster& caster, bool followsReceivers) {
   const auto inner = std::partition(caster.beams.begin(), caster.beams.end(), [&](const Beam& beam) {
-    return !isInsideInnerWindow(beam, set, 0) || !isInsideInnerWindow(beam, set, set.planes - 1);
+    return !isInsideInnerWindow(beam, caster.planes, followsReceivers);
   });
   caster.beamsOfOuterWindow = std::size_t(inner - caster.beams.begin());
 }
@@ -211,7 +223,7 @@ void IlluminationTextures::update(const Scene& scene, GpuScene&) {
           ++last;
         LitCaster caster = light(now, std::span(queries).subspan(first, last - first), boxes);
         if (caster.planes.planes == 0) continue;
-        putBeamsOfOuterWindowFirst(caster);
+        putBeamsOfOuterWindowFirst(caster, followsReceivers() != 0);
         beamCount += caster.beams.size();
         lit.push_back(std::move(caster));
       }

@@ -1,0 +1,77 @@
+#include "reference/photon_keeper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/air.h"
+#include "reference/sight.h"
+
+namespace nephroid {
+namespace {
+
+constexpr uint32_t kPlacesInAir = 4;  // of a segment, at which it is seen
+
+StoredPhoton stored(const PhotonSegment& segment, vec3 flux) {
+  StoredPhoton photon;
+  photon.flux = flux;
+  photon.band = uint16_t(segment.band);
+  photon.isDispersed = segment.isDispersed;
+  return photon;
+}
+
+}  // namespace
+
+void PhotonKeeper::segment(const PhotonSegment& segment) {
+  if (!settings.keepsAir || !segment.metCaster || !segment.isInAir) return;
+  const float extinction = segment.extinction.x;
+  const Medium& medium = *settings.scene->medium;
+  for (uint32_t i = 0; i < kPlacesInAir; ++i) {
+    const DistanceSample sample =
+        sampleExtinction((float(i) + segment.sample) / float(kPlacesInAir), extinction, segment.length);
+    StoredPhoton photon = stored(segment, segment.flux);
+    photon.position = segment.ray.origin + sample.distance * segment.ray.direction;
+    photon.flux *= std::exp(-extinction * sample.distance) / (sample.density * float(kPlacesInAir));
+    photon.direction = segment.ray.direction;
+    inAir.push_back(photon);
+    if (!settings.splats) continue;
+    const auto seen = settings.camera->project(photon.position);
+    if (!seen) continue;
+    const float scattered =
+        scatteringCoefficient(medium) * phaseOf(medium, dot(photon.direction, seen->direction));
+    splat(segment, photon.position, photon.flux * scattered, true, *seen);
+  }
+}
+
+void PhotonKeeper::landing(const PhotonSegment& segment, const Hit& hit, vec3 flux) {
+  const vec3 arriving = segment.ray.direction;
+  StoredPhoton photon = stored(segment, flux);
+  photon.direction = dot(arriving, hit.geometricNormal) < 0 ? hit.geometricNormal : -hit.geometricNormal;
+  const vec3 smooth = dot(hit.normal, photon.direction) < 0 ? -hit.normal : hit.normal;
+  // Receivers are lit by their smooth normals, photons land on triangles.
+  photon.flux *= glm::clamp(dot(arriving, smooth) / dot(arriving, photon.direction), 0.0f, 4.0f);
+  photon.position = hit.flatPosition;
+  photon.object = hit.object;
+  onSurfaces.push_back(photon);
+  if (!settings.splats) return;
+  const auto seen = settings.camera->project(photon.position);
+  const float cosine = seen ? dot(photon.direction, seen->direction) : 0;
+  if (cosine <= 0) return;
+  const vec3 reflected = photon.flux * diffuseReflectance(*settings.scene, hit) * (cosine / kPi);
+  splat(segment, photon.position, reflected, false, *seen);
+}
+
+// `reflected`: cd toward the camera.
+void PhotonKeeper::splat(const PhotonSegment& segment, vec3 place, vec3 reflected, bool isInAir,
+                         const Pinhole::Projection& seen) {
+  if (reflected == vec3(0)) return;
+  const RayScene& rays = settings.boundaries->rayScene();
+  const float margin = rays.selfIntersectionDistance();
+  if (rays.occluded({place, seen.direction, isInAir ? 0 : margin, seen.distance})) return;
+  const vec3 extinction = settings.boundaries->extinctionIn(settings.mediumOfCamera);
+  vec3 luminance = reflected * (seen.perSteradian / (seen.distance * seen.distance));
+  if (extinction != vec3(0)) luminance *= glm::exp(-extinction * seen.distance);
+  if (segment.isDispersed) luminance *= (*settings.bands)[segment.band].weight;
+  splats.push_back({seen.pixel, isInAir, luminance});
+}
+
+}  // namespace nephroid

@@ -1,0 +1,44 @@
+// What becomes of the photons of a pass: those that the camera sees directly are put into the picture at
+// once, with no kernel; all are kept in maps for what is seen by way of casters.
+#pragma once
+
+#include "reference/photon_map.h"
+#include "reference/photons.h"
+#include "reference/pinhole.h"
+
+namespace nephroid {
+
+// Luminance (nit) that a photon adds to a pixel.
+struct Splat {
+  uint32_t pixel = 0;
+  bool isInAir = false;
+  vec3 luminance{0};
+};
+
+struct KeeperSettings {
+  const Scene* scene = nullptr;
+  const Boundaries* boundaries = nullptr;
+  const Pinhole* camera = nullptr;
+  const std::vector<Band>* bands = nullptr;
+  uint32_t mediumOfCamera = kNone;  // the object it is inside of
+  bool keepsAir = false;            // the air scatters
+  bool splats = true;
+};
+
+class PhotonKeeper final : public PhotonVisitor {
+ public:
+  explicit PhotonKeeper(const KeeperSettings& keeperSettings) : settings(keeperSettings) {}
+  void segment(const PhotonSegment& segment) override;
+  void landing(const PhotonSegment& segment, const Hit& hit, vec3 flux) override;
+
+  std::vector<StoredPhoton> onSurfaces, inAir;
+  std::vector<Splat> splats;
+
+ private:
+  void splat(const PhotonSegment& segment, vec3 place, vec3 reflected, bool isInAir,
+             const Pinhole::Projection& seen);
+
+  KeeperSettings settings;
+};
+
+}  // namespace nephroid
