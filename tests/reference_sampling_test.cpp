@@ -209,6 +209,9 @@ TEST(Spectrum, AnIndexPerChannelIsMetAtTheChannelsWavelengths) {
   EXPECT_NEAR(indexOfRefraction(material, at(611)), 1.50f, 1e-6);
   EXPECT_NEAR(indexOfRefraction(material, at(549)), 1.52f, 1e-6);
   EXPECT_NEAR(indexOfRefraction(material, at(464)), 1.56f, 1e-6);
+  // Linear in the inverse square of the wavelength between them: 500 nm by the line through the upper two.
+  const double share = (1 / (500.0 * 500) - 1 / (549.0 * 549)) / (1 / (464.0 * 464) - 1 / (549.0 * 549));
+  EXPECT_NEAR(indexOfRefraction(material, at(500)), 1.52 + 0.04 * share, 1e-6);
   for (float wavelength = kShortestWavelength; wavelength < kLongestWavelength; ++wavelength)
     EXPECT_GT(indexOfRefraction(material, at(wavelength)), indexOfRefraction(material, at(wavelength + 1)));
   EXPECT_EQ(indexOfRefraction(glass(1.3f), at(400)), 1.3f);
