@@ -139,7 +139,7 @@ bool PhotonTracer::meetCaster(const PhotonPass& pass, Choice choice, Random& ran
     ledger.lost += glm::dvec3(leaving);
     return false;
   }
-  photon.ray = boundaries.rayScene().leaving(photon.hit, photon.path.direction);
+  photon.ray = boundaries.rayScene().leavingTriangle(photon.hit, photon.path.direction);
   return true;
 }
 
