@@ -193,12 +193,14 @@ TEST(ParallelPlate, ShiftsABeamAsSnellSays) {
   const double width = 1 - std::cos(glm::radians(5.0)), inner = std::cos(glm::radians(2.0));
   for (int ring = 0; ring < kRings; ++ring)
     for (int sector = 0; sector < kSectors; ++sector) {
-      const vec2 u((float(ring) + 0.5f) / kRings, (float(sector) + 0.5f) / kSectors);
-      const glm::dvec3 d(frame * sampleCone(u, float(width)));
+      const double drop = width * (ring + 0.5) / kRings, turn = 2 * double(kPi) * (sector + 0.5) / kSectors;
+      const double aside = std::sqrt(drop * (2 - drop));
+      const glm::dvec3 d =
+          glm::dmat3(frame) * glm::dvec3(aside * std::cos(turn), aside * std::sin(turn), 1 - drop);
       const double cosine = -d.y, sine = std::sqrt(1 - cosine * cosine);
       const double inGlass = sine / 1.5;
       const double across = 1.5 * sine / cosine + 0.5 * inGlass / std::sqrt(1 - inGlass * inGlass);
-      const double cosFromAxis = 1 - width * double(u.x);
+      const double cosFromAxis = 1 - drop;
       const double falloff = std::min(1.0, (cosFromAxis - (1 - width)) / (inner - (1 - width)));
       const double transmitted = 1 - fresnel(cosine, 1 / 1.5);
       expected[columnOf(-2 + across * d.x / sine)] +=
