@@ -1,5 +1,7 @@
 #include "reference/estimate.h"
 
+#include <algorithm>
+#include <functional>
 #include <limits>
 
 #include "core/error.h"
@@ -64,12 +66,23 @@ void RunningMean::readVariance(const Image& image, const std::string& prefix) {
 }
 
 double RunningMean::noise() const {
-  double errors = 0, values = 0;
-  for (std::size_t i = 0; i < mean.size(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      errors += std::sqrt(double(variance[i][c]));
-      values += mean[i][c];
-    }
+  constexpr double kShare = 0.95;
+  std::vector<std::pair<float, float>> pixels;  // value, standard error
+  double light = 0;
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    const float value = mean[i].x + mean[i].y + mean[i].z;
+    if (value <= 0) continue;
+    const vec3 error = glm::sqrt(variance[i]);
+    pixels.emplace_back(value, error.x + error.y + error.z);
+    light += double(value);
+  }
+  std::sort(pixels.begin(), pixels.end(), std::greater<>());
+  double values = 0, errors = 0;
+  for (const auto& [value, error] : pixels) {
+    values += double(value);
+    errors += double(error);
+    if (values >= kShare * light) break;
+  }
   return values > 0 ? errors / values : std::numeric_limits<double>::infinity();
 }
 

@@ -28,8 +28,8 @@ class RunningMean {
   void readMean(const Image& image, const std::string& prefix);
   void readVariance(const Image& image, const std::string& prefix);
 
-  // The standard errors of all pixels over their values, both summed up: the relative error where the light
-  // is. Infinite where there is no light.
+  // The relative error where the light is: the standard errors over the values, both summed up, of the
+  // brightest pixels, as many as hold 95 % of the light. Infinite where there is none.
   double noise() const;
 
  private:
