@@ -337,5 +337,11 @@ TEST_F(SentOn, ByAThinWallGoesStraightOnOrComesBack) {
   choices.expectMeans({(1 - face) / (1 + face), 2 * face / (1 + face)});
 }
 
+TEST(Sampling, OfDistancesStaysFinite) {
+  const DistanceSample sample = sampleExtinction(1, 0.1f, std::numeric_limits<float>::infinity());
+  EXPECT_TRUE(std::isfinite(sample.distance));
+  EXPECT_GT(sample.density, 0);
+}
+
 }  // namespace
 }  // namespace nephroid

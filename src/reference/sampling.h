@@ -56,7 +56,9 @@ inline DistanceSample sampleExtinction(float u, float extinction, float length) 
   const float depth = extinction * length;
   if (depth < 1e-4f) return {u * length, 1 / length};
   const float scattered = -std::expm1(-depth);
-  const float distance = std::min(-std::log1p(-u * scattered) / extinction, length);
+  // A `u` put together from parts may round to 1, which would be infinitely far.
+  const float part = std::min(u, 1 - 0x1p-24f);
+  const float distance = std::min(-std::log1p(-part * scattered) / extinction, length);
   return {distance, extinction * std::exp(-extinction * distance) / scattered};
 }
 
