@@ -72,6 +72,16 @@ TEST(Energy, InAClosedRoomIsReceivedOrAbsorbed) {
   expectKept(misty, true);
 }
 
+// The first that light from within a ball of glass meets is the water's face inside of it, where nothing
+// happens.
+TEST(Energy, WhereOneMediumReachesIntoAnotherIsCountedOnce) {
+  Scene scene = room();
+  const vec3 lamp = scene.lights[0].position;
+  add(scene, makeBox({1, 0.8f, 1}), glass(1.33f), lamp - vec3(0, 0.3f, 0));
+  add(scene, makeSphere(0.3f), glass(), lamp);
+  expectKept(scene, false);
+}
+
 TEST(Energy, WithoutReflectionIsLostToItAlone) {
   Scene scene = room();
   addNested(scene);

@@ -69,6 +69,9 @@ TEST_P(ReferenceTruth, IsMetWithinBothSpreads) {
     ++blocks;
   }
   const double fluxError = difference / (mean * double(truth.size()));
+  RecordProperty("flux_error_percent", std::to_string(100 * fluxError));
+  RecordProperty("z_of_flux", std::to_string(difference / std::sqrt(differenceVariance)));
+  RecordProperty("mean_square_z", std::to_string(squares / blocks));
   if (!wanted.isFromFile) {
     EXPECT_LT(std::abs(difference) / std::sqrt(differenceVariance), 4)
         << "flux off by " << 100 * fluxError << " %";

@@ -73,9 +73,10 @@ bool Boundaries::crossDielectric(const Hit& hit, const Band& band, Carried carri
   }
   const uint32_t here = path.media.top();
   const uint32_t there = beyond.top();
-  if (here == there) {  // inside another object, which fills this place
+  if (here == there) {  // inside another object, which fills this place: nothing is reflected
     path.media = beyond;
-    return true;
+    if (choice == Choice::reflected) path.throughput = vec3(0);
+    return choice != Choice::reflected;
   }
 
   const float eta = indexIn(here, band) / indexIn(there, band);
