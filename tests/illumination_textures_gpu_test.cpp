@@ -208,8 +208,8 @@ Scene glassBoxAboveFloor() {
   return scene;
 }
 
-// What lights the floor, point by point, is asked for before and after the camera moves.
-TEST_F(IlluminationTexturesGpuTest, DoNotDependOnTheCamera) {
+// What lights the floor, point by point, is asked for before and after the camera moves, and in a part of it.
+TEST_F(IlluminationTexturesGpuTest, DependNeitherOnTheCameraNorOnThePartAskedFor) {
   Scene scene = glassBoxAboveFloor();
   GpuScene gpuScene(device(), scene);
   TechniqueSettings settings;
@@ -233,18 +233,22 @@ TEST_F(IlluminationTexturesGpuTest, DoNotDependOnTheCamera) {
   send(positions, points);
   send(normals, std::vector<vec4>(points.size(), vec4(0, 1, 0, 0)));
 
-  const auto lit = [&] {
+  const auto lit = [&](const gpu::Region& region = {}) {
     technique->update(scene, gpuScene);
     device().submitAndWait([&](gpu::CommandList& commands) {
       technique->record(commands, gpuScene);
       commands.pass("clear", [&] { commands.clear(caustics, vec4(0)); });
-      technique->shade(commands, {&positions, &normals}, caustics);
+      technique->shade(commands, {&positions, &normals, region}, caustics);
     });
     return gpu::download<vec4>(device(), caustics);
   };
-  const std::vector<vec4> before = lit();
+  std::vector<vec4> before = lit();
   scene.camera.position = vec3(-3, 2, 1);
   EXPECT_EQ(lit(), before);
+  EXPECT_GT(std::accumulate(before.begin(), before.end(), vec4(0)).y, 0);
+  for (uint32_t i = 0; i < kSize * kSize; ++i)
+    if (i % kSize < kSize / 2 || i / kSize >= kSize / 4) before[i] = vec4(0);
+  EXPECT_EQ(lit({{kSize / 2, 0}, {kSize / 2, kSize / 4}}), before);
   EXPECT_GT(std::accumulate(before.begin(), before.end(), vec4(0)).y, 0);
 }
 

@@ -11,6 +11,7 @@ namespace nephroid {
 struct ReceiverPoints {
   const gpu::Image* position = nullptr;  // rgba32f: world m; a = 1 where there is a receiver, else 0
   const gpu::Image* normal = nullptr;    // rgba32f: unit, on the side of the viewer or sensor
+  gpu::Region region{};                  // of the images that is asked for; empty: all of them
 };
 
 // One frame is update, record, then shade for each view. A moved camera changes only what shade does.
@@ -28,7 +29,8 @@ class Technique {
   virtual void record(gpu::CommandList& commands, GpuScene& gpuScene) = 0;
 
   // Adds to `causticsLux` (rgba32f, the size of the points) the illuminance (lux) on each receiver point by
-  // light that met a caster. Synchronised with all before it; what it records is named by passes of its own.
+  // light that met a caster, in the region asked for. May be called several times a frame. Synchronised with
+  // all before it; what it records is named by passes of its own.
   virtual void shade(gpu::CommandList& commands, const ReceiverPoints& points,
                      const gpu::Image& causticsLux) = 0;
 };

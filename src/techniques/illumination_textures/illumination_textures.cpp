@@ -319,15 +319,19 @@ void IlluminationTextures::record(gpu::CommandList& commands, GpuScene& gpuScene
 
 void IlluminationTextures::shade(gpu::CommandList& commands, const ReceiverPoints& points,
                                  const gpu::Image& causticsLux) {
+  const bool isAll = points.region.size.x == 0 || points.region.size.y == 0;
   commands.pass("caustics", [&] {
-    commands.render({.colors = {{&causticsLux, 0, std::nullopt}}}, [&] {
-      VkDeviceAddress texture = textures.address();
-      for (uint32_t set = 0; set < lit.size(); ++set) {
-        commands.draw(shadePrograms[channels == 3], 3, 1, ShadeConstants{lit[set].planes, texture},
-                      {*points.position, *points.normal, receiverViews[set].depths});
-        texture += textureStart(lit[set].planes, 0, kWindows, channels) * sizeof(uint32_t);
-      }
-    });
+    commands.render({.colors = {{&causticsLux, 0, std::nullopt}},
+                     .region = isAll ? std::nullopt : std::optional(points.region)},
+                    [&] {
+                      VkDeviceAddress texture = textures.address();
+                      for (uint32_t set = 0; set < lit.size(); ++set) {
+                        commands.draw(shadePrograms[channels == 3], 3, 1,
+                                      ShadeConstants{lit[set].planes, texture},
+                                      {*points.position, *points.normal, receiverViews[set].depths});
+                        texture += textureStart(lit[set].planes, 0, kWindows, channels) * sizeof(uint32_t);
+                      }
+                    });
   });
 }
 
