@@ -62,13 +62,6 @@ void onHost(std::vector<PassTime>& passes, const char* name, const Work& work) {
       {name, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()});
 }
 
-// The affine map of a placement.
-mat4 toWorld(const Placement& placement) {
-  mat4 map = placement.scale * mat4(glm::mat3_cast(placement.rotation));
-  map[3] = vec4(placement.translation, 1);
-  return map;
-}
-
 vec3 surfaceColor(const Material& material) {
   if (material.type != MaterialType::dielectric) return material.color;
   return -glm::log(glm::max(material.attenuationColor, vec3(1e-6f))) * material.inverseAttenuationDistance();
@@ -77,26 +70,6 @@ vec3 surfaceColor(const Material& material) {
 bool hasEmission(const Scene& scene) {
   return std::ranges::any_of(scene.materials,
                              [](const Material& material) { return material.emission != vec3(0); });
-}
-
-DirectConstants directConstants(const ShadowPlan& plan, const ShadowedEmitter& lit) {
-  DirectConstants constants{};
-  constants.emitter = lit.emitter;
-  constants.texelSize = lit.texelSize;
-  constants.texelSizePerDepth = lit.texelSizePerDepth;
-  constants.firstMap = lit.firstMap;
-  if (lit.mapCount == 0) return constants;
-  // In a perspective the third row is depthScale times the fourth, and depthOffset.
-  const mat4 rows = glm::transpose(plan.maps[lit.firstMap].worldToMap);
-  constants.mapX = rows[0];
-  constants.mapY = rows[1];
-  constants.mapDepth = rows[2];
-  if (lit.texelSizePerDepth > 0) {
-    constants.mapDepth = rows[3];
-    constants.depthScale = dot(vec3(rows[2]), vec3(rows[3])) / dot(vec3(rows[3]), vec3(rows[3]));
-    constants.depthOffset = rows[2].w - constants.depthScale * rows[3].w;
-  }
-  return constants;
 }
 
 }  // namespace
@@ -109,23 +82,27 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const RenderSettings
       gpuScene_(device, scene),
       programs_(createFramePrograms(device, hasEmission(scene))),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
-      shadowSampler_(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {
+      directLight_(device, settings.shadowMapSize) {
   for (const Mesh& mesh : scene.meshes) extents_.push_back(extentOf(mesh));
 }
 
 std::vector<PassTime> Renderer::render(const Scene& scene) {
   std::vector<PassTime> passes;
   onHost(passes, "placement", [&] { place(scene); });
-  onHost(passes, "shadow projections", [&] { planShadows(scene); });
+  onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_); });
   onHost(passes, "beams", [&] { technique_.update(scene, gpuScene_); });
 
   const std::vector<PassTime> onDevice = device_.submitAndWait([&](gpu::CommandList& commands) {
-    commands.pass("shadow maps", [&] { drawShadowMaps(commands); });
+    commands.pass("shadow maps", [&] { directLight_.recordShadowMaps(commands, gpuScene_); });
     technique_.record(commands, gpuScene_);
     commands.pass("receivers", [&] { drawReceivers(commands); });
     commands.pass("casters", [&] { drawCasters(commands); });
-    commands.pass("direct light", [&] { lightDirectly(commands); });
-    technique_.shade(commands, {&images_.receiverPosition, &images_.receiverNormal}, images_.causticsLux);
+    const ReceiverPoints points{&images_.receiverPosition, &images_.receiverNormal};
+    commands.pass("direct light", [&] {
+      commands.clear(images_.causticsLux, vec4(0));
+      directLight_.record(commands, points, images_.directLux);
+    });
+    technique_.shade(commands, points, images_.causticsLux);
     commands.pass("composite", [&] { composite(commands, false); });
   });
   passes.insert(passes.end(), onDevice.begin(), onDevice.end());
@@ -142,7 +119,7 @@ void Renderer::place(const Scene& scene) {
     const Object& object = scene.objects[i];
     const Material& material = scene.materialOf(object);
     if (object.water) extents_[object.mesh] = extentOf(scene.meshOf(object));
-    Surface surface{material.type, material.colorTexture != kNone, toWorld(object.placement), {}};
+    Surface surface{material.type, material.colorTexture != kNone, {}};
     surface.constants.vertices = gpuScene_.vertices();
     surface.constants.objects = gpuScene_.objects();
     surface.constants.worldToClip = view_.worldToClip;
@@ -154,31 +131,6 @@ void Renderer::place(const Scene& scene) {
     surfaces_.push_back(surface);
   }
   casterRegion_ = casterRegion(scene, extents_, view_, settings_.size);
-}
-
-void Renderer::planShadows(const Scene& scene) {
-  shadows_ = planShadowMaps(scene, extents_, settings_.shadowMapSize);
-
-  const auto layers = std::max<uint32_t>(static_cast<uint32_t>(shadows_.maps.size()), 1);
-  if (!shadowMaps_ || shadowMaps_.layerCount() < layers)
-    shadowMaps_ = gpu::createImage(device_, "shadow maps",
-                                   {.format = VK_FORMAT_D32_SFLOAT,
-                                    .width = settings_.shadowMapSize,
-                                    .height = settings_.shadowMapSize,
-                                    .layers = layers});
-}
-
-void Renderer::drawShadowMaps(gpu::CommandList& commands) {
-  for (uint32_t layer = 0; layer < shadows_.maps.size(); ++layer) {
-    const ShadowMap& map = shadows_.maps[layer];
-    commands.render({.colors = {}, .depth = gpu::DepthAttachment{&shadowMaps_, layer, 1.0f}}, [&] {
-      for (const ShadowCaster& caster : map.casters)
-        commands.drawIndexed(
-            caster.hidesItsFarSide ? programs_.closedShadow : programs_.shadow, gpuScene_.indices(),
-            gpuScene_.draws()[caster.object].range, 1,
-            ShadowConstants{gpuScene_.vertices(), map.worldToMap * surfaces_[caster.object].toWorld});
-    });
-  }
 }
 
 void Renderer::drawSurfaces(gpu::CommandList& commands, const gpu::Program& program, MaterialType type) {
@@ -229,16 +181,6 @@ void Renderer::drawNearestCasters(gpu::CommandList& commands) {
                     drawSurfaces(commands, programs_.nearestCaster, MaterialType::mirror);
                     drawSurfaces(commands, programs_.nearestCaster, MaterialType::dielectric);
                   });
-}
-
-void Renderer::lightDirectly(gpu::CommandList& commands) {
-  commands.clear(images_.causticsLux, vec4(0));
-  commands.render({.colors = {{&images_.directLux, 0, vec4(0)}}}, [&] {
-    for (const ShadowedEmitter& lit : shadows_.emitters)
-      commands.draw(programs_.direct.at({lit.emitter.type, lit.mapCount}), 3, 1,
-                    directConstants(shadows_, lit),
-                    {images_.receiverPosition, images_.receiverNormal, {shadowMaps_, shadowSampler_}});
-  });
 }
 
 // Everywhere as if there were no casters, then again where there may be.

@@ -3,9 +3,9 @@
 
 #include "core/image.h"
 #include "core/stats.h"
+#include "render/direct_light.h"
 #include "render/frame_data.h"
 #include "render/frame_resources.h"
-#include "render/shadow_maps.h"
 #include "techniques/technique.h"
 
 namespace nephroid {
@@ -27,7 +27,6 @@ struct View {
 struct Surface {
   MaterialType type = MaterialType::diffuse;
   bool isTextured = false;
-  mat4 toWorld{1};
   SurfaceConstants constants{};
 };
 
@@ -53,12 +52,9 @@ class Renderer {
 
  private:
   void place(const Scene& scene);
-  void planShadows(const Scene& scene);
-  void drawShadowMaps(gpu::CommandList& commands);
   void drawReceivers(gpu::CommandList& commands);
   void drawCasters(gpu::CommandList& commands);
   void drawNearestCasters(gpu::CommandList& commands);
-  void lightDirectly(gpu::CommandList& commands);
   void composite(gpu::CommandList& commands, bool writesLayers);
   void drawSurfaces(gpu::CommandList& commands, const gpu::Program& program, MaterialType type);
 
@@ -68,8 +64,7 @@ class Renderer {
   GpuScene gpuScene_;
   FramePrograms programs_;
   FrameImages images_;
-  gpu::Image shadowMaps_;
-  gpu::Sampler shadowSampler_;
+  DirectLight directLight_;
 
   // Of the frame being made.
   View view_{};
@@ -78,7 +73,6 @@ class Renderer {
   float exposure_ = 1;
   std::vector<MeshExtent> extents_;  // of the meshes
   gpu::Region casterRegion_;         // pixels outside it see no caster
-  ShadowPlan shadows_;
 };
 
 }  // namespace nephroid

@@ -1,15 +1,11 @@
 #include "render/frame_resources.h"
 
-#include "optics/emitter.h"
 #include "shaders/caster_frag.h"
 #include "shaders/caster_view_frag.h"
 #include "shaders/composite_comp.h"
-#include "shaders/direct_frag.h"
 #include "shaders/mirror_frag.h"
 #include "shaders/receiver_frag.h"
-#include "shaders/shadow_vert.h"
 #include "shaders/surface_vert.h"
-#include "shaders/whole_picture_vert.h"
 
 namespace nephroid {
 namespace {
@@ -58,28 +54,13 @@ FramePrograms createFramePrograms(gpu::Device& device, bool hasEmission) {
   gpu::RasterState nearest = receiver;
   nearest.colors = {{kFloats}};
   nearest.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-  gpu::RasterState shadow;
-  shadow.depthFormat = kDepth;
-  gpu::RasterState closedShadow = shadow;
-  closedShadow.cull = VK_CULL_MODE_BACK_BIT;
-  closedShadow.frontFace = VK_FRONT_FACE_CLOCKWISE;  // maps are seen with y up
-  gpu::RasterState direct;
-  direct.colors = {{kFloats, gpu::Blend::add}};
 
   FramePrograms programs;
-  programs.shadow = gpu::createRasterProgram(device, "shadow", shaders::shadow_vert, {}, shadow);
-  programs.closedShadow =
-      gpu::createRasterProgram(device, "closed shadow", shaders::shadow_vert, {}, closedShadow);
   programs.receiver = surface("receiver", shaders::receiver_frag, receiver);
   programs.texturedReceiver = surface("textured receiver", shaders::receiver_frag, receiver, {{0, VK_TRUE}});
   programs.mirror = surface("mirror", shaders::mirror_frag, mirror);
   programs.dielectric = surface("dielectric", shaders::caster_view_frag, dielectric);
   programs.nearestCaster = surface("nearest caster", shaders::caster_frag, nearest);
-  for (const uint32_t type : {kEmitterDirectional, kEmitterPoint, kEmitterSpot})
-    for (const uint32_t maps : {0u, 1u, 6u})
-      programs.direct[{type, maps}] =
-          gpu::createRasterProgram(device, "direct", shaders::whole_picture_vert, shaders::direct_frag,
-                                   direct, {{0, type}, {1, maps}});
   for (const uint32_t writesLayers : {0u, 1u})
     for (const uint32_t seesCasters : {0u, 1u})
       programs.composite[writesLayers][seesCasters] =

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <array>
-#include <map>
-#include <utility>
 
 #include "gpu/program.h"
 #include "gpu/resources.h"
@@ -31,16 +29,11 @@ struct FrameImages {
 FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t height);
 
 struct FramePrograms {
-  gpu::Program shadow;
-  gpu::Program
-      closedShadow;  // for closed objects about which the light is not: their far sides shade nothing more
   gpu::Program receiver;
   gpu::Program texturedReceiver;
   gpu::Program mirror;
   gpu::Program dielectric;
   gpu::Program nearestCaster;
-  std::map<std::pair<uint32_t, uint32_t>, gpu::Program>
-      direct;  // by kEmitter... and count of shadow maps (0, 1 or 6)
   // Luminance and picture, where a caster may be in front (second index 1) and where none is, without and
   // with (first index 1) layers.
   std::array<std::array<gpu::Program, 2>, 2> composite;

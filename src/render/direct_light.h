@@ -1,0 +1,49 @@
+// Light that met no caster: what of each emitter's light reaches receivers past all that stands in its way.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "gpu/command_list.h"
+#include "gpu/program.h"
+#include "gpu/resources.h"
+#include "render/shadow_maps.h"
+#include "techniques/gpu_scene.h"
+#include "techniques/technique.h"
+
+namespace nephroid {
+
+// One frame is update, recordShadowMaps, then record for each view. A moved camera changes only what record
+// does.
+class DirectLight {
+ public:
+  // The device outlives it. `shadowMapSize` is in texels along a side.
+  DirectLight(gpu::Device& device, uint32_t shadowMapSize);
+
+  // What the host does in a frame. `extents` are those of scene.meshes. Nothing is in use by the device.
+  void update(const Scene& scene, const std::vector<MeshExtent>& extents);
+
+  void recordShadowMaps(gpu::CommandList& commands, const GpuScene& gpuScene);
+
+  // Illuminance (lux) on each receiver point of the region asked for, in place of what stood there. `lux` is
+  // rgba32f and of the size of the points. May be called several times a frame.
+  void record(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& lux);
+
+ private:
+  gpu::Device& device_;
+  uint32_t shadowMapSize_;
+  gpu::Program shadowProgram_;
+  // For closed objects about which the light is not: their far sides shade nothing more.
+  gpu::Program closedShadowProgram_;
+  std::map<std::pair<uint32_t, uint32_t>, gpu::Program>
+      programs_;  // by kEmitter... and count of shadow maps (0, 1 or 6)
+  gpu::Sampler sampler_;
+  gpu::Image maps_;
+
+  // Of the frame being made.
+  ShadowPlan plan_;
+  std::vector<mat4> objectsToWorld_;
+};
+
+}  // namespace nephroid
