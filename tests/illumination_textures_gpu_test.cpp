@@ -217,7 +217,8 @@ TEST_F(IlluminationTexturesGpuTest, DependNeitherOnTheCameraNorOnThePartAskedFor
   settings.textureSize = 128;
   Progress progress;
   Stats stats;
-  const std::unique_ptr<Technique> technique = makeTechnique({device(), scene, settings, progress, stats});
+  SceneTransport transport(scene, settings, progress);
+  const std::unique_ptr<Technique> technique = makeTechnique({device(), settings, transport, stats});
   const auto image = [&](const char* name) {
     return gpu::createImage(device(), name, {.width = kSize, .height = kSize});
   };
@@ -234,7 +235,8 @@ TEST_F(IlluminationTexturesGpuTest, DependNeitherOnTheCameraNorOnThePartAskedFor
   send(normals, std::vector<vec4>(points.size(), vec4(0, 1, 0, 0)));
 
   const auto lit = [&](const gpu::Region& region = {}) {
-    technique->update(scene, gpuScene);
+    transport.place(scene);
+    technique->update(gpuScene);
     device().submitAndWait([&](gpu::CommandList& commands) {
       technique->record(commands, gpuScene);
       commands.pass("clear", [&] { commands.clear(caustics, vec4(0)); });

@@ -40,8 +40,9 @@ class Frame : public GpuTest {
     Progress progress;
     TechniqueSettings settings;
     settings.technique = "none";
-    const auto technique = makeTechnique({device(), scene, settings, progress, stats});
-    Renderer renderer(device(), scene, {.size = kSize}, *technique);
+    SceneTransport transport(scene, settings, progress);
+    const auto technique = makeTechnique({device(), settings, transport, stats});
+    Renderer renderer(device(), transport, {.size = kSize}, *technique);
     renderer.render(scene);
     picture_ = renderer.picture();
     return renderer.layers();
@@ -378,8 +379,9 @@ TEST_F(Frame, MovingObjectsNeedsNoNewRenderer) {
   Progress progress;
   TechniqueSettings settings;
   settings.technique = "none";
-  const auto technique = makeTechnique({device(), scene, settings, progress, stats});
-  Renderer renderer(device(), scene, {.size = kSize}, *technique);
+  SceneTransport transport(scene, settings, progress);
+  const auto technique = makeTechnique({device(), settings, transport, stats});
+  Renderer renderer(device(), transport, {.size = kSize}, *technique);
   renderer.render(scene);
   renderer.render(moved);
   const std::vector<uint8_t> picture = renderer.picture().bytes;

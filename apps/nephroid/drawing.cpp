@@ -12,8 +12,9 @@ std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& devic
                                  Stats& stats, const std::function<void(Renderer&)>& use) {
   const Stopwatch preparing;
   const Scene scene = loadScene(request.scene, request.time);
-  const auto technique = makeTechnique({device, scene, request.technique, progress, stats});
-  Renderer renderer(device, scene, request.render, *technique);
+  SceneTransport transport(scene, request.technique, progress);
+  const auto technique = makeTechnique({device, request.technique, transport, stats});
+  Renderer renderer(device, transport, request.render, *technique);
   stats.prepareMilliseconds += preparing.milliseconds();
 
   std::vector<FrameTime> times(request.repeat);

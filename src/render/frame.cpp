@@ -74,23 +74,24 @@ bool hasEmission(const Scene& scene) {
 
 }  // namespace
 
-Renderer::Renderer(gpu::Device& device, const Scene& scene, const RenderSettings& settings,
+Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderSettings& settings,
                    Technique& technique)
     : device_(device),
+      transport_(transport),
       technique_(technique),
       settings_(settings),
-      gpuScene_(device, scene),
-      programs_(createFramePrograms(device, hasEmission(scene))),
+      gpuScene_(device, transport.scene()),
+      programs_(createFramePrograms(device, hasEmission(transport.scene()))),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
       directLight_(device, settings.shadowMapSize) {
-  for (const Mesh& mesh : scene.meshes) extents_.push_back(extentOf(mesh));
+  for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
 }
 
 std::vector<PassTime> Renderer::render(const Scene& scene) {
   std::vector<PassTime> passes;
   onHost(passes, "placement", [&] { place(scene); });
   onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_); });
-  onHost(passes, "beams", [&] { technique_.update(scene, gpuScene_); });
+  onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
 
   const std::vector<PassTime> onDevice = device_.submitAndWait([&](gpu::CommandList& commands) {
     commands.pass("shadow maps", [&] { directLight_.recordShadowMaps(commands, gpuScene_); });
@@ -113,6 +114,7 @@ void Renderer::place(const Scene& scene) {
   view_ = viewOf(scene.camera, settings_.size);
   environment_ = scene.environment;
   exposure_ = scene.camera.exposure;
+  transport_.place(scene);
   gpuScene_.place(scene);
   surfaces_.clear();
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {

@@ -6,6 +6,7 @@
 #include "render/direct_light.h"
 #include "render/frame_data.h"
 #include "render/frame_resources.h"
+#include "techniques/sources.h"
 #include "techniques/technique.h"
 
 namespace nephroid {
@@ -32,9 +33,10 @@ struct Surface {
 
 class Renderer {
  public:
-  // Device and technique outlive it. `scene` gives objects, meshes and textures; what moves is taken at each
-  // `render`.
-  Renderer(gpu::Device& device, const Scene& scene, const RenderSettings& settings, Technique& technique);
+  // Device, transport and technique outlive it; the technique was made with that transport. Objects, meshes
+  // and textures are those of the transport's scene; what moves is taken at each `render`.
+  Renderer(gpu::Device& device, SceneTransport& transport, const RenderSettings& settings,
+           Technique& technique);
 
   // A whole frame, with all that a moved light, camera or object would change. Returns the time in each pass,
   // on the host and on the device, in the order in which they ran.
@@ -59,6 +61,7 @@ class Renderer {
   void drawSurfaces(gpu::CommandList& commands, const gpu::Program& program, MaterialType type);
 
   gpu::Device& device_;
+  SceneTransport& transport_;
   Technique& technique_;
   RenderSettings settings_;
   GpuScene gpuScene_;

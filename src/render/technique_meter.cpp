@@ -48,7 +48,8 @@ TechniqueMeter::TechniqueMeter(gpu::Device& deviceToUse, const Scene& sceneToRea
       sensor(sensorToRead),
       scene(withReceiver(sceneToRead, sensorToRead)),
       gpuScene(device, scene),
-      technique(makeTechnique({device, scene, settings, progress, stats})),
+      transport(scene, settings, progress),
+      technique(makeTechnique({device, settings, transport, stats})),
       positions(pointImage(device, "sensor positions", sensor)),
       normals(pointImage(device, "sensor normals", sensor)),
       caustics(pointImage(device, "sensor caustics", sensor)) {
@@ -85,7 +86,8 @@ void TechniqueMeter::addShaded(SensorLayer& layer) {
 
 SensorLayer TechniqueMeter::read() {
   gpuScene.place(scene);
-  technique->update(scene, gpuScene);
+  transport.place(scene);
+  technique->update(gpuScene);
   device.submitAndWait([&](gpu::CommandList& commands) { technique->record(commands, gpuScene); });
   SensorLayer layer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
   for (uint32_t pass = 0; pass < kPasses * kPasses; ++pass) {

@@ -14,7 +14,7 @@ namespace nephroid {
 // planes get wrong.
 class TechniqueMeter {
  public:
-  // Device, sensor, progress and stats outlive it.
+  // Device, sensor, settings, progress and stats outlive it.
   TechniqueMeter(gpu::Device& device, const Scene& scene, const Sensor& sensor,
                  const TechniqueSettings& settings, Progress& progress, Stats& stats);
 
@@ -30,6 +30,7 @@ class TechniqueMeter {
   const Sensor& sensor;
   Scene scene;  // with a receiver where the sensor is
   GpuScene gpuScene;
+  SceneTransport transport;
   std::unique_ptr<Technique> technique;
   gpu::Image positions, normals, caustics;
 };

@@ -11,7 +11,7 @@ namespace {
 
 class NoCaustics final : public Technique {
  public:
-  void update(const Scene&, GpuScene&) override {}
+  void update(GpuScene&) override {}
   void record(gpu::CommandList&, GpuScene&) override {}
   void shade(gpu::CommandList&, const ReceiverPoints&, const gpu::Image&) override {}
 };
@@ -30,7 +30,7 @@ std::span<const TechniqueEntry> techniques() {
 }
 
 std::unique_ptr<Technique> makeTechnique(const TechniqueContext& context) {
-  requireDrawableLights(context.scene);
+  requireDrawableLights(context.transport.scene());
   const std::string& wanted = context.settings.technique;
   std::vector<std::string> names;
   std::string all;

@@ -9,6 +9,7 @@
 #include "core/stats.h"
 #include "techniques/omissions.h"
 #include "techniques/settings.h"
+#include "techniques/sources.h"
 #include "techniques/technique.h"
 
 namespace nephroid {
@@ -16,9 +17,8 @@ namespace nephroid {
 // What a technique is made with. All outlive it.
 struct TechniqueContext {
   gpu::Device& device;
-  const Scene& scene;
   const TechniqueSettings& settings;
-  Progress& progress;
+  SceneTransport& transport;
   Stats& stats;  // a technique adds its counts
 };
 

@@ -65,4 +65,23 @@ std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const Techn
   return std::make_unique<TableSource>(scene, std::move(ofObject), traced);
 }
 
+SceneTransport::SceneTransport(const Scene& scene, const TechniqueSettings& settingsToUse,
+                               Progress& progressToShow)
+    : settings(settingsToUse), progress(progressToShow), now(scene), rays(now), traced(now, rays) {}
+
+void SceneTransport::place(const Scene& scene) {
+  now.time = scene.time;
+  now.camera = scene.camera;
+  now.objects = scene.objects;
+  now.materials = scene.materials;
+  now.lights = scene.lights;
+  rays.place(now);
+}
+
+const TransportSource& SceneTransport::source() {
+  if (settings.source == Source::traced) return traced;
+  if (!table) table = makeTableSource(now, settings, traced, progress);
+  return *table;
+}
+
 }  // namespace nephroid

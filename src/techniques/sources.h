@@ -9,6 +9,7 @@
 #include "techniques/settings.h"
 #include "transport/source.h"
 #include "transport/table/table.h"
+#include "transport/traced/traced_source.h"
 
 namespace nephroid {
 
@@ -21,5 +22,28 @@ std::vector<TransportTable> makeTables(const Scene& scene, const TechniqueSettin
 // `traced`. Scene and `traced` must outlive it. Throws InputError where the baked file is not of this scene.
 std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const TechniqueSettings& settings,
                                                  const TransportSource& traced, Progress& progress);
+
+// How light, and sight, goes through the casters of a scene that moves.
+class SceneTransport {
+ public:
+  // Settings and progress must outlive it.
+  SceneTransport(const Scene& scene, const TechniqueSettings& settings, Progress& progress);
+
+  // Moves all to where `scene` has it, with the objects and meshes that this was made with.
+  void place(const Scene& scene);
+
+  const Scene& scene() const { return now; }
+  // What the settings ask for. Tables are found or made when it is first called.
+  const TransportSource& source();
+  MediumStack mediaAround(const Emitter& emitter) const { return traced.mediaAround(emitter); }
+
+ private:
+  const TechniqueSettings& settings;
+  Progress& progress;
+  Scene now;  // the sources look at it, and it stays where it is
+  RayScene rays;
+  TracedSource traced;
+  std::unique_ptr<TransportSource> table;
+};
 
 }  // namespace nephroid

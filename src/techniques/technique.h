@@ -22,8 +22,9 @@ class Technique {
   Technique& operator=(const Technique&) = delete;
   virtual ~Technique() = default;
 
-  // What the host does in a frame: rays, beams, planes. Nothing is in use by the device.
-  virtual void update(const Scene& scene, GpuScene& gpuScene) = 0;
+  // What the host does in a frame: rays, beams, planes, of the scene that the technique's transport was
+  // placed in. Nothing is in use by the device.
+  virtual void update(GpuScene& gpuScene) = 0;
 
   // What the device does that no view has a part in.
   virtual void record(gpu::CommandList& commands, GpuScene& gpuScene) = 0;

@@ -17,7 +17,6 @@
 #include "techniques/illumination_textures/shader_data.h"
 #include "techniques/sources.h"
 #include "transport/queries.h"
-#include "transport/traced/traced_source.h"
 
 namespace nephroid {
 namespace {
@@ -99,7 +98,7 @@ class IlluminationTextures final : public Technique {
  public:
   explicit IlluminationTextures(const TechniqueContext& context);
 
-  void update(const Scene& scene, GpuScene& gpuScene) override;
+  void update(GpuScene& gpuScene) override;
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;
@@ -123,10 +122,7 @@ class IlluminationTextures final : public Technique {
   gpu::Device& device;
   const TechniqueSettings settings;
   Stats& stats;
-  Scene now;  // the scene of this frame: the sources look at it, and it stays where it is
-  RayScene rays;
-  TracedSource traced;
-  std::unique_ptr<TransportSource> table;
+  SceneTransport& transport;
   const TransportSource& source;
 
   gpu::Program receiversProgram;
@@ -159,12 +155,8 @@ IlluminationTextures::IlluminationTextures(const TechniqueContext& context)
     : device(context.device),
       settings(context.settings),
       stats(context.stats),
-      now(context.scene),
-      rays(now),
-      traced(now, rays),
-      table(settings.source == Source::table ? makeTableSource(now, settings, traced, context.progress)
-                                             : nullptr),
-      source(table ? *table : static_cast<const TransportSource&>(traced)),
+      transport(context.transport),
+      source(transport.source()),
       receiversProgram(gpu::createRasterProgram(
           device, "receivers from the light", shaders::receivers_vert, shaders::receivers_frag,
           {.colors = {{VK_FORMAT_R32_UINT}}, .depthFormat = VK_FORMAT_D32_SFLOAT})),
@@ -203,17 +195,13 @@ LitCaster IlluminationTextures::light(const Scene& scene, std::span<const BandQu
   return caster;
 }
 
-void IlluminationTextures::update(const Scene& scene, GpuScene&) {
-  now.time = scene.time;
-  now.objects = scene.objects;
-  now.materials = scene.materials;
-  now.lights = scene.lights;
-  rays.place(now);
+void IlluminationTextures::update(GpuScene&) {
+  const Scene& now = transport.scene();
   const std::vector<ReceiverBox> boxes = receiverBoxes(now);
   lit.clear();
   std::size_t beamCount = 0;
   for (const Emitter& emitter : emittersOf(now)) {
-    const MediumStack media = traced.mediaAround(emitter);
+    const MediumStack media = transport.mediaAround(emitter);
     for (uint32_t object = 0; object < now.objects.size(); ++object) {
       if (!now.isCaster(now.objects[object])) continue;
       const std::vector<BandQuery> queries = queriesFor(now, object, emitter, media, settings.paths);
