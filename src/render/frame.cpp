@@ -2,56 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "gpu/transfer.h"
 #include "render/frame_data.h"
 
 namespace nephroid {
 namespace {
-
-// Infinitely far, and near enough for anything beyond a ten-thousandth of the distance to what is looked at.
-View viewOf(const Camera& camera, uvec2 size) {
-  View view;
-  view.eye = camera.position;
-  view.forward = normalize(camera.target - camera.position);
-  const float tangent = std::tan(0.5f * glm::radians(camera.verticalFov));
-  const vec3 up = std::abs(dot(view.forward, normalize(camera.up))) < 0.9999f ? camera.up : vec3(0, 0, -1);
-  const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
-  view.nearest = 1e-4f * distance(camera.target, camera.position);
-  mat4 projection(0);
-  projection[0][0] = 1 / (tangent * aspect);
-  projection[1][1] = -1 / tangent;
-  projection[2][3] = -1;
-  projection[3][2] = view.nearest;
-  view.worldToClip = projection * glm::lookAtRH(camera.position, camera.target, up);
-  return view;
-}
-
-// The pixels that the boxes of casters may cover.
-gpu::Region casterRegion(const Scene& scene, const std::vector<MeshExtent>& extents, const View& view,
-                         uvec2 size) {
-  vec2 low(std::numeric_limits<float>::infinity());
-  vec2 high = -low;
-  for (const Object& object : scene.objects) {
-    if (!scene.isCaster(object)) continue;
-    const MeshExtent& extent = extents[object.mesh];
-    for (int i = 0; i < 8; ++i) {
-      const vec3 corner((i & 1 ? extent.high : extent.low).x, (i & 2 ? extent.high : extent.low).y,
-                        (i & 4 ? extent.high : extent.low).z);
-      const vec4 clip = view.worldToClip * vec4(object.placement.point(corner), 1);
-      if (clip.w < view.nearest) return {{0, 0}, size};
-      const vec2 pixel = (0.5f * vec2(clip) / clip.w + 0.5f) * vec2(size);
-      low = glm::min(low, pixel);
-      high = glm::max(high, pixel);
-    }
-  }
-  const vec2 first = glm::clamp(glm::floor(low) - 1.0f, vec2(0), vec2(size));
-  const vec2 last = glm::clamp(glm::ceil(high) + 1.0f, vec2(0), vec2(size));
-  if (!(first.x < last.x && first.y < last.y)) return {};
-  return {ivec2(first), uvec2(last - first)};
-}
 
 // Runs `work` and notes its time under `name`.
 template <class Work>
@@ -62,9 +18,11 @@ void onHost(std::vector<PassTime>& passes, const char* name, const Work& work) {
       {name, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()});
 }
 
-vec3 surfaceColor(const Material& material) {
-  if (material.type != MaterialType::dielectric) return material.color;
-  return -glm::log(glm::max(material.attenuationColor, vec3(1e-6f))) * material.inverseAttenuationDistance();
+void clearRegion(gpu::CommandList& commands, const gpu::Image& image, const gpu::Region& region) {
+  if (region.size.x == 0)
+    commands.clear(image, vec4(0));
+  else
+    commands.render({.colors = {{&image, 0, vec4(0)}}, .region = region}, [] {});
 }
 
 bool hasEmission(const Scene& scene) {
@@ -83,6 +41,7 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       gpuScene_(device, transport.scene()),
       programs_(createFramePrograms(device, hasEmission(transport.scene()))),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
+      sight_(device, settings.sight),
       directLight_(device, settings.shadowMapSize) {
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
 }
@@ -92,19 +51,19 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
   onHost(passes, "placement", [&] { place(scene); });
   onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_); });
   onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
+  onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
+  ensureImages();
 
   const std::vector<PassTime> onDevice = device_.submitAndWait([&](gpu::CommandList& commands) {
     commands.pass("shadow maps", [&] { directLight_.recordShadowMaps(commands, gpuScene_); });
     technique_.record(commands, gpuScene_);
     commands.pass("receivers", [&] { drawReceivers(commands); });
-    commands.pass("casters", [&] { drawCasters(commands); });
-    const ReceiverPoints points{&images_.receiverPosition, &images_.receiverNormal};
-    commands.pass("direct light", [&] {
-      commands.clear(images_.causticsLux, vec4(0));
-      directLight_.record(commands, points, images_.directLux);
-    });
-    technique_.shade(commands, points, images_.causticsLux);
-    commands.pass("composite", [&] { composite(commands, false); });
+    commands.pass("casters", [&] { sight_.record(commands, gpuScene_, images_); });
+    light(commands, images_.seen, {});
+    if (sight_.reflects()) light(commands, images_.reflected, sight_.region());
+    if (sight_.disperses())
+      for (const SeenImages& seen : images_.dispersed) light(commands, seen, sight_.region());
+    commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}); });
   });
   passes.insert(passes.end(), onDevice.begin(), onDevice.end());
   return passes;
@@ -121,83 +80,77 @@ void Renderer::place(const Scene& scene) {
     const Object& object = scene.objects[i];
     const Material& material = scene.materialOf(object);
     if (object.water) extents_[object.mesh] = extentOf(scene.meshOf(object));
-    Surface surface{material.type, material.colorTexture != kNone, {}};
+    Surface surface{!material.isCaster(), material.colorTexture != kNone, {}};
     surface.constants.vertices = gpuScene_.vertices();
     surface.constants.objects = gpuScene_.objects();
     surface.constants.worldToClip = view_.worldToClip;
-    surface.constants.eye = view_.eye;
     surface.constants.object = i;
-    surface.constants.color = surfaceColor(material);
-    surface.constants.ior = material.ior.y;
+    surface.constants.color = material.color;
     surface.constants.material = object.material;
     surfaces_.push_back(surface);
   }
-  casterRegion_ = casterRegion(scene, extents_, view_, settings_.size);
 }
 
-void Renderer::drawSurfaces(gpu::CommandList& commands, const gpu::Program& program, MaterialType type) {
-  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-    const Surface& surface = surfaces_[i];
-    const SceneDraw& draw = gpuScene_.draws()[i];
-    if (surface.type != type) continue;
-    const auto drawWith = [&](const gpu::Program& chosen, gpu::Bindings bindings) {
-      commands.drawIndexed(chosen, gpuScene_.indices(), draw.range, 1, surface.constants, bindings);
-    };
-    if (type == MaterialType::diffuse)
-      drawWith(surface.isTextured ? programs_.texturedReceiver : program,
-               {{*draw.colorTexture, gpuScene_.textureSampler()}});
-    else if (&program == &programs_.dielectric)
-      drawWith(program, {images_.receiverPosition});
-    else
-      drawWith(program, {});
-  }
+void Renderer::ensureImages() {
+  const uvec2 size = settings_.size;
+  if (sight_.reflects() && !images_.reflected.position)
+    images_.reflected = createSeenImages(device_, size.x, size.y);
+  if (sight_.disperses() && !images_.dispersed[0].position)
+    for (SeenImages& seen : images_.dispersed) seen = createSeenImages(device_, size.x, size.y);
 }
 
 void Renderer::drawReceivers(gpu::CommandList& commands) {
   const vec4 nothing(0);
-  commands.render({.colors = {{&images_.receiverPosition, 0, nothing},
-                              {&images_.receiverNormal, 0, nothing},
-                              {&images_.receiverAlbedo, 0, nothing}},
-                   .depth = gpu::DepthAttachment{&images_.depth, 0, 0.0f}},
-                  [&] { drawSurfaces(commands, programs_.receiver, MaterialType::diffuse); });
+  const SeenImages& seen = images_.seen;
+  commands.render(
+      {.colors = {{&seen.position, 0, nothing}, {&seen.normal, 0, nothing}, {&seen.albedo, 0, nothing}},
+       .depth = gpu::DepthAttachment{&images_.depth, 0, 0.0f}},
+      [&] {
+        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+          const Surface& surface = surfaces_[i];
+          const SceneDraw& draw = gpuScene_.draws()[i];
+          if (surface.isReceiver)
+            commands.drawIndexed(surface.isTextured ? programs_.texturedReceiver : programs_.receiver,
+                                 gpuScene_.indices(), draw.range, 1, surface.constants,
+                                 {{*draw.colorTexture, gpuScene_.textureSampler()}});
+        }
+      });
 }
 
-// Mirrors first, then all the glass in front of them and of the receivers.
-void Renderer::drawCasters(gpu::CommandList& commands) {
-  if (casterRegion_.size.x == 0) return;
-  commands.render({.colors = {{&images_.opticalDepth, 0, vec4(0)}, {&images_.casterReflectance, 0, vec4(0)}},
-                   .depth = gpu::DepthAttachment{&images_.depth, 0, std::nullopt},
-                   .region = casterRegion_},
-                  [&] {
-                    drawSurfaces(commands, programs_.mirror, MaterialType::mirror);
-                    drawSurfaces(commands, programs_.dielectric, MaterialType::dielectric);
-                  });
-}
-
-void Renderer::drawNearestCasters(gpu::CommandList& commands) {
-  if (casterRegion_.size.x == 0) return;
-  commands.render({.colors = {{&images_.casterNormal, 0, vec4(0)}},
-                   .depth = gpu::DepthAttachment{&images_.depth, 0, std::nullopt},
-                   .region = casterRegion_},
-                  [&] {
-                    drawSurfaces(commands, programs_.nearestCaster, MaterialType::mirror);
-                    drawSurfaces(commands, programs_.nearestCaster, MaterialType::dielectric);
-                  });
+void Renderer::light(gpu::CommandList& commands, const SeenImages& seen, const gpu::Region& region) {
+  const ReceiverPoints points{&seen.position, &seen.normal, region};
+  commands.pass("direct light", [&] {
+    clearRegion(commands, seen.causticsLux, region);
+    directLight_.record(commands, points, seen.directLux);
+  });
+  technique_.shade(commands, points, seen.causticsLux);
 }
 
 // Everywhere as if there were no casters, then again where there may be.
-void Renderer::composite(gpu::CommandList& commands, bool writesLayers) {
-  const gpu::Region whole{{0, 0}, settings_.size};
-  for (const bool seesCasters : {false, true}) {
-    const gpu::Region region = seesCasters ? casterRegion_ : whole;
-    if (seesCasters) commands.barrier();
-    commands.dispatch(programs_.composite[writesLayers][seesCasters], {region.size, 1},
-                      CompositeConstants{gpuScene_.materials(), region.corner, ivec2(region.size),
-                                         environment_.ambient, environment_.background, exposure_},
-                      {images_.receiverAlbedo, images_.directLux, images_.causticsLux,
-                       images_.casterReflectance, images_.opticalDepth, images_.picture, images_.luminance,
-                       images_.directLuminance, images_.causticsLuminance});
-  }
+void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
+                         const std::vector<const gpu::Image*>& targets) {
+  const SeenImages& seen = images_.seen;
+  const SeenImages& reflected = sight_.reflects() ? images_.reflected : seen;
+  const SeenImages& green = sight_.disperses() ? images_.dispersed[0] : seen;
+  const SeenImages& blue = sight_.disperses() ? images_.dispersed[1] : seen;
+  const auto draw = [&](const CasterTraits& traits, const gpu::Region& region) {
+    gpu::RenderTargets rendered;
+    for (const gpu::Image* target : targets) rendered.colors.push_back({target, 0, std::nullopt});
+    rendered.region = region;
+    commands.render(rendered, [&] {
+      commands.draw(
+          programs.at(traits), 3, 1,
+          CompositeConstants{gpuScene_.materials(), environment_.ambient, environment_.background, exposure_},
+          {seen.albedo, seen.directLux, seen.causticsLux, seen.transmittance, reflected.albedo,
+           reflected.normal, reflected.directLux, reflected.causticsLux, green.albedo, green.directLux,
+           green.causticsLux, green.transmittance, blue.albedo, blue.directLux, blue.causticsLux,
+           blue.transmittance});
+    });
+  };
+  draw({}, {{0, 0}, settings_.size});
+  if (sight_.region().size.x == 0) return;
+  commands.barrier();
+  draw({true, sight_.reflects() || sight_.disperses(), sight_.disperses()}, sight_.region());
 }
 
 ByteImage Renderer::picture() const {
@@ -224,8 +177,9 @@ void writeChannels(Image& layers, const std::string& prefix, std::string_view na
 Image Renderer::layers() {
   device_.submitAndWait([&](gpu::CommandList& commands) {
     commands.pass("layers", [&] {
-      composite(commands, true);
-      drawNearestCasters(commands);
+      composite(commands, programs_.layers,
+                {&images_.luminance, &images_.directLuminance, &images_.causticsLuminance});
+      sight_.recordNormals(commands, images_);
     });
   });
   Image layers;
@@ -235,11 +189,12 @@ Image Renderer::layers() {
   writeChannels(layers, "direct.", "RGB", gpu::download<vec4>(device_, images_.directLuminance));
   writeChannels(layers, "caustics.", "RGB", gpu::download<vec4>(device_, images_.causticsLuminance));
 
-  auto normals = gpu::download<vec4>(device_, images_.receiverNormal);
+  auto normals = gpu::download<vec4>(device_, images_.seen.normal);
   const auto casterNormals = gpu::download<vec4>(device_, images_.casterNormal);
-  const uvec2 first(casterRegion_.corner);
-  for (uint32_t y = first.y; y < first.y + casterRegion_.size.y; ++y)
-    for (uint32_t x = first.x; x < first.x + casterRegion_.size.x; ++x) {
+  const gpu::Region& region = sight_.region();
+  const uvec2 first(region.corner);
+  for (uint32_t y = first.y; y < first.y + region.size.y; ++y)
+    for (uint32_t x = first.x; x < first.x + region.size.x; ++x) {
       const std::size_t i = std::size_t{y} * settings_.size.x + x;
       if (casterNormals[i].a > 0) normals[i] = casterNormals[i];
     }

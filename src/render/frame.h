@@ -6,6 +6,8 @@
 #include "render/direct_light.h"
 #include "render/frame_data.h"
 #include "render/frame_resources.h"
+#include "render/sight/sight_pass.h"
+#include "render/view.h"
 #include "techniques/sources.h"
 #include "techniques/technique.h"
 
@@ -14,19 +16,12 @@ namespace nephroid {
 struct RenderSettings {
   uvec2 size{640, 480};           // pixels
   uint32_t shadowMapSize = 1024;  // texels along a side
+  SightSettings sight;
 };
 
-// A pinhole camera as passes are told of it. World space.
-struct View {
-  mat4 worldToClip;  // y down; depth is `nearest` over the distance along `forward`
-  vec3 eye;          // m
-  vec3 forward;      // unit
-  float nearest;     // m
-};
-
-// An object as the passes of a frame draw it.
+// An object as it is drawn.
 struct Surface {
-  MaterialType type = MaterialType::diffuse;
+  bool isReceiver = false;
   bool isTextured = false;
   SurfaceConstants constants{};
 };
@@ -55,10 +50,10 @@ class Renderer {
  private:
   void place(const Scene& scene);
   void drawReceivers(gpu::CommandList& commands);
-  void drawCasters(gpu::CommandList& commands);
-  void drawNearestCasters(gpu::CommandList& commands);
-  void composite(gpu::CommandList& commands, bool writesLayers);
-  void drawSurfaces(gpu::CommandList& commands, const gpu::Program& program, MaterialType type);
+  void light(gpu::CommandList& commands, const SeenImages& seen, const gpu::Region& region);
+  void composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
+                 const std::vector<const gpu::Image*>& targets);
+  void ensureImages();
 
   gpu::Device& device_;
   SceneTransport& transport_;
@@ -67,6 +62,7 @@ class Renderer {
   GpuScene gpuScene_;
   FramePrograms programs_;
   FrameImages images_;
+  SightPass sight_;
   DirectLight directLight_;
 
   // Of the frame being made.
@@ -75,7 +71,6 @@ class Renderer {
   Environment environment_;
   float exposure_ = 1;
   std::vector<MeshExtent> extents_;  // of the meshes
-  gpu::Region casterRegion_;         // pixels outside it see no caster
 };
 
 }  // namespace nephroid

@@ -18,10 +18,8 @@ struct SurfaceConstants {
   BUFFER_ADDRESS(SceneVertices) vertices;
   BUFFER_ADDRESS(SceneObjects) objects;
   mat4 worldToClip;
-  vec3 eye;  // m
   uint object;
-  vec3 color;  // reflectance of a diffuse surface or a mirror; absorption (1/m) of a dielectric
-  float ior;   // of a dielectric; 0 for a mirror
+  vec3 color;  // reflectance
   uint material;
 };
 
@@ -39,8 +37,6 @@ struct DirectConstants {
 
 struct CompositeConstants {
   BUFFER_ADDRESS(SceneMaterials) materials;
-  ivec2 corner;     // pixels: where the part of the picture begins that is made
-  ivec2 size;       // and how large it is
   vec3 ambient;     // lux
   vec3 background;  // nit
   float exposure;

@@ -2,41 +2,54 @@
 #pragma once
 
 #include <array>
+#include <compare>
+#include <map>
 
 #include "gpu/program.h"
 #include "gpu/resources.h"
 
 namespace nephroid {
 
+// What pixels see, and the light there. Of the frame's size, rgba32f.
+struct SeenImages {
+  gpu::Image position;       // m, a = 1 where there is a receiver
+  gpu::Image normal;         // unit, on the side that is seen; for what is reflected a = reflectance
+  gpu::Image albedo;         // a = material + 1 where there is a receiver, else 0
+  gpu::Image transmittance;  // of the casters through, or in, which it is seen; a = kSight..., 0 for none
+  gpu::Image directLux;
+  gpu::Image causticsLux;
+};
+
 // Of the frame's size; rgba32f unless it says otherwise.
 struct FrameImages {
-  gpu::Image depth;             // d32, reversed: 1 near, 0 infinitely far
-  gpu::Image receiverPosition;  // m, a = 1 where there is a receiver
-  gpu::Image receiverNormal;    // unit, on the side of the viewer
-  gpu::Image receiverAlbedo;    // a = material + 1 where there is a receiver, else 0
-  gpu::Image casterNormal;  // unit, on the side of the viewer, a = object + 1 of the nearest caster in front
-                            // of the receiver, else 0; filled for layers only
-  gpu::Image casterReflectance;  // a = 1 where nothing is seen through the caster
-  gpu::Image opticalDepth;  // of the dielectrics in front of the receiver: rgb by absorption, a by reflection
-  gpu::Image directLux;     // a = 1 where there is a receiver
-  gpu::Image causticsLux;
+  gpu::Image depth;                     // d32, reversed: 1 near, 0 infinitely far
+  SeenImages seen;                      // in all channels, or in red alone where a caster disperses
+  std::array<SeenImages, 2> dispersed;  // in green and blue; made when they are first needed
+  SeenImages reflected;                 // by glass; made when it is first needed
+  gpu::Image casterNormal;       // unit, on the side of the viewer, a = 1 where a caster is in front of the
+                                 // receiver, else 0; filled for layers only
   gpu::Image luminance;          // nit; filled for layers only
   gpu::Image directLuminance;    // nit; filled for layers only
   gpu::Image causticsLuminance;  // nit; filled for layers only
   gpu::Image picture;            // rgba8, sRGB
 };
 
+SeenImages createSeenImages(gpu::Device& device, uint32_t width, uint32_t height);
 FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t height);
+
+// What of casters is in the picture, or a part of it.
+struct CasterTraits {
+  bool areSeen = false;
+  bool reflect = false;
+  bool disperse = false;
+  auto operator<=>(const CasterTraits&) const = default;
+};
 
 struct FramePrograms {
   gpu::Program receiver;
   gpu::Program texturedReceiver;
-  gpu::Program mirror;
-  gpu::Program dielectric;
-  gpu::Program nearestCaster;
-  // Luminance and picture, where a caster may be in front (second index 1) and where none is, without and
-  // with (first index 1) layers.
-  std::array<std::array<gpu::Program, 2>, 2> composite;
+  std::map<CasterTraits, gpu::Program> picture;
+  std::map<CasterTraits, gpu::Program> layers;
 };
 
 FramePrograms createFramePrograms(gpu::Device& device, bool hasEmission);

@@ -53,7 +53,7 @@ std::vector<TransportTable> makeTables(const Scene& scene, const TechniqueSettin
 }
 
 std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const TechniqueSettings& settings,
-                                                 const TransportSource& traced, Progress& progress) {
+                                                 const TracedSource& traced, Progress& progress) {
   const TableSettings tableSettings{settings.directions};
   const TablePlan plan = planTables(scene, tableSettings);
   const std::vector<TransportTable> tables = settings.baked.empty()

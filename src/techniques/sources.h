@@ -21,7 +21,7 @@ std::vector<TransportTable> makeTables(const Scene& scene, const TechniqueSettin
 // The source "table": of the tables in `settings.baked`, or of makeTables; what no table holds goes to
 // `traced`. Scene and `traced` must outlive it. Throws InputError where the baked file is not of this scene.
 std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const TechniqueSettings& settings,
-                                                 const TransportSource& traced, Progress& progress);
+                                                 const TracedSource& traced, Progress& progress);
 
 // How light, and sight, goes through the casters of a scene that moves.
 class SceneTransport {

@@ -19,6 +19,9 @@ struct TransportQuery {
   Paths paths = Paths::transmission;
   uint32_t reflections = 0;  // bit i: it is reflected at the i-th boundary where it could also be transmitted
   MediumStack media;         // what the emitter stands in
+  // A line of sight from the emitter's place rather than light: it is asked for also where something hides
+  // the surface, so that rays may be interpolated up to the edge of what is seen.
+  bool isSight = false;
 };
 
 // A point of a caster's surface where light meets it. World space.
@@ -38,7 +41,8 @@ class TransportSource {
   // The outgoing ray for every vertex of the caster's mesh, in the mesh's order.
   virtual void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const = 0;
 
-  // Whether rays can be had anywhere on the surface, and not at the vertices alone.
+  // Whether light's rays can be had anywhere on the surface, and not at the vertices alone. Those of sight
+  // always can.
   virtual bool refines() const = 0;
   virtual OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const = 0;
 };

@@ -6,6 +6,7 @@
 
 #include "transport/source.h"
 #include "transport/table/table.h"
+#include "transport/traced/traced_source.h"
 
 namespace nephroid {
 
@@ -14,13 +15,13 @@ bool hasTable(const Scene& scene, const Object& object);
 
 // Rays looked up at the vertices of casters that have a table, wherever they stand. A table knows its caster
 // alone: not what stands before or behind it, nor where a ray ends. What no table holds (mirrors, reflection,
-// a light inside a medium) is traced.
+// a light inside a medium; sight that is totally reflected) is traced.
 class TableSource : public TransportSource {
  public:
   // `tables` has one for each object of the scene, or none where the object is to be traced. Scene and
   // `traced` must outlive this.
   TableSource(const Scene& scene, std::vector<std::optional<TransportTable>> tables,
-              const TransportSource& traced);
+              const TracedSource& traced);
 
   void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const override;
   bool refines() const override { return false; }
@@ -28,10 +29,11 @@ class TableSource : public TransportSource {
 
  private:
   bool isTabulated(const TransportQuery& query) const;
+  void traceLost(const TransportQuery& query, std::span<OutgoingRay> rays) const;
 
   const Scene& scene;
   std::vector<std::optional<TransportTable>> tables;
-  const TransportSource& traced;
+  const TracedSource& traced;
 };
 
 }  // namespace nephroid

@@ -43,7 +43,7 @@ OutgoingRay TracedSource::rayAt(const TransportQuery& query, const SurfacePoint&
   ray.direction = direction;
   ray.flags = kRayLost;
   if (arrivesFromOutside == query.media.contains(query.object)) return ray;
-  if (!isLit(query, point, direction)) {
+  if (!query.isSight && !isLit(query, point, direction)) {
     ray.flags = kRayOccluded;
     return ray;
   }
@@ -60,6 +60,14 @@ OutgoingRay TracedSource::rayAt(const TransportQuery& query, const SurfacePoint&
   return ray;
 }
 
+OutgoingRay TracedSource::vertexRay(const TransportQuery& query, uint32_t vertex, uint32_t patch) const {
+  const Object& object = scene.objects[query.object];
+  const Mesh& mesh = scene.meshOf(object);
+  const vec3 position = object.placement.point(mesh.positions[vertex]);
+  const vec3 normal = object.placement.direction(mesh.normals[vertex]);
+  return rayAt(query, {position, position, normal, normal, patch});
+}
+
 void TracedSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const {
   const Object& object = scene.objects[query.object];
   const Mesh& mesh = scene.meshOf(object);
@@ -69,11 +77,8 @@ void TracedSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay
       patches[mesh.triangles[t][corner]] = follower.rayScene().patchOf(object.mesh, t);
   using Range = oneapi::tbb::blocked_range<std::size_t>;
   oneapi::tbb::parallel_for(Range(0, mesh.positions.size(), 64), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const vec3 position = object.placement.point(mesh.positions[i]);
-      const vec3 normal = object.placement.direction(mesh.normals[i]);
-      rays[i] = rayAt(query, {position, position, normal, normal, patches[i]});
-    }
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      rays[i] = vertexRay(query, uint32_t(i), patches[i]);
   });
 }
 

@@ -20,6 +20,9 @@ class TracedSource : public TransportSource {
   bool refines() const override { return true; }
   OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override;
 
+  // The ray at one vertex of the caster's mesh.
+  OutgoingRay vertexRay(const TransportQuery& query, uint32_t vertex, uint32_t patch) const;
+
   // The media around an emitter, for its queries.
   MediumStack mediaAround(const Emitter& emitter) const;
 

@@ -1,0 +1,13 @@
+// Luminance exposed and tone-mapped, as a screen is told to show it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "render/luminance.glsl.h"
+#include "render/tone_mapping.h"
+
+layout(location = 0) out vec4 picture;
+
+void main() {
+  const Luminance seen = luminanceAt(ivec2(gl_FragCoord.xy));
+  picture = vec4(displayed(seen.direct + seen.caustics + seen.rest, constants.exposure), 1);
+}

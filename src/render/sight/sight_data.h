@@ -1,0 +1,102 @@
+// What the passes that show what is seen through glass and in mirrors are told, for C++ and GLSL.
+#ifndef NEPHROID_RENDER_SIGHT_SIGHT_DATA_H
+#define NEPHROID_RENDER_SIGHT_SIGHT_DATA_H
+
+#include "techniques/scene_data.h"
+
+SHARED_BEGIN
+
+// A corner of a caster's surface as the viewer sees it, and where sight that meets it leaves the caster for
+// the last time (Iwasaki 2005, 5.3). World space.
+struct SightVertex {
+  vec3 position;   // m
+  vec3 normal;     // unit
+  vec3 exit;       // m
+  vec3 direction;  // unit
+  vec3 transmittance;
+};
+
+// A square pyramid of sight.
+struct SightFrame {
+  vec3 apex;    // m
+  vec3 axisU;   // unit, along a row of texels
+  vec3 axisV;   // unit, down the rows
+  vec3 axisW;   // unit, the middle of what is seen
+  float scale;  // 1 over the tangent of half its opening
+};
+
+// The sliced object images of a caster: the nearest receiver on each line from the apex, in layers between
+// sample planes across axisW, each plane `depthRatio` times as far as the one before it.
+struct SliceSet {
+  SightFrame frame;
+  float firstDepth;  // m along axisW from the apex, of the first plane
+  float depthRatio;
+  uint slices;
+  uint occupied;  // bit i: there may be a receiver in slice i
+};
+
+// Layers overlap by this part of their depth, so that a surface has no seam where it goes through a plane.
+SHARED_CONSTANT float kSliceOverlap = 0.15f;
+
+// In the images of receivers around a caster: the frame of a face of the cube, as the axes of the world.
+// Faces look along +x, -x, +y, -y, +z, -z.
+SHARED_FUNCTION SightFrame faceOfCube(vec3 center, uint face) {
+  uint axis = face / 2u;
+  SightFrame frame;
+  frame.apex = center;
+  frame.axisW = vec3(axis == 0u ? 1.0f : 0.0f, axis == 1u ? 1.0f : 0.0f, axis == 2u ? 1.0f : 0.0f);
+  if (face % 2u == 1u) frame.axisW = -frame.axisW;
+  frame.axisU = vec3(axis == 0u ? 0.0f : 1.0f, axis == 0u ? 1.0f : 0.0f, 0.0f);
+  frame.axisV = vec3(0.0f, axis == 2u ? 1.0f : 0.0f, axis == 2u ? 0.0f : 1.0f);
+  frame.scale = 1.0f;
+  return frame;
+}
+
+// Draws the receivers that a frame of sight sees between two depths.
+struct SliceConstants {
+  BUFFER_ADDRESS(SceneVertices) vertices;
+  BUFFER_ADDRESS(SceneObjects) objects;
+  SightFrame frame;
+  float nearDepth;  // m along axisW
+  float farDepth;
+  vec3 color;  // reflectance
+  uint object;
+  uint material;
+};
+
+SHARED_END
+
+#ifndef __cplusplus
+layout(buffer_reference, scalar) readonly buffer SightVertices {
+  SightVertex vertex[];
+};
+layout(buffer_reference, scalar) readonly buffer SightCamera {
+  mat4 worldToClip;
+};
+#endif
+
+SHARED_BEGIN
+
+struct SightConstants {
+  BUFFER_ADDRESS(SightVertices) vertices;
+  BUFFER_ADDRESS(SightCamera) camera;
+  vec3 eye;   // m
+  float ior;  // of a dielectric, in the middle channel
+  SliceSet slices;
+  vec3 center;  // m, of the caster: the surroundings are seen from there
+  float reach;  // m: as far from the center as a receiver may be
+  uint marks;   // kSight...
+};
+
+SHARED_CONSTANT uint kSightCaster = 1u;
+SHARED_CONSTANT uint kSightDisperses = 2u;
+SHARED_CONSTANT uint kSightThinWalled = 4u;
+
+SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(nephroid::SightVertex) == 60 && sizeof(nephroid::SliceConstants) <= 128 &&
+              sizeof(nephroid::SightConstants) <= 128);
+#endif
+
+#endif

@@ -1,0 +1,94 @@
+// What is seen through glass and in mirrors (Iwasaki 2005, 5.2 and 5.3). Rays of sight leave each caster at
+// its vertices and are interpolated between; each pixel's is looked for in images of the receivers: sliced
+// object images across the mean direction in which sight leaves the caster, and, for what lies far from that,
+// images all around it. The images hold surfaces, not light: what a pixel finds replaces the receiver behind
+// it, and is lit as that would be.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "gpu/program.h"
+#include "gpu/resources.h"
+#include "render/frame_resources.h"
+#include "render/shadow_maps.h"
+#include "render/sight/slices.h"
+#include "render/view.h"
+#include "techniques/gpu_scene.h"
+#include "techniques/sources.h"
+
+namespace nephroid {
+
+struct SightSettings {
+  uint32_t slices = 0;  // sliced object images of a caster; 0: as many as the depth of the receivers asks for
+  uint32_t sliceSize = 512;        // texels along a side of one
+  uint32_t surroundingSize = 256;  // texels along a side of the six images around a caster
+};
+
+// One frame is update, then record.
+class SightPass {
+ public:
+  // The device outlives it.
+  SightPass(gpu::Device& device, const SightSettings& settings);
+
+  // What the host does in a frame: rays of sight and where images are taken from, for the scene that
+  // `transport` was placed in. `extents` are those of its meshes. Nothing is in use by the device.
+  void update(SceneTransport& transport, const View& view, uvec2 pictureSize,
+              const std::vector<MeshExtent>& extents);
+
+  // Pixels outside see no caster.
+  const gpu::Region& region() const { return region_; }
+  bool disperses() const { return disperses_; }
+  bool reflects() const { return reflects_; }
+
+  // Puts what casters show over the receivers in `images`, and the casters into their depth.
+  void record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images);
+
+  // The normals of the nearest casters; after `record`.
+  void recordNormals(gpu::CommandList& commands, const FrameImages& images);
+
+ private:
+  // A caster that is in the picture.
+  struct SeenCaster {
+    std::array<gpu::IndexRange, 3> ranges{};  // of its sight, by channel; one of all, unless it disperses
+    SightConstants constants{};
+    std::array<SliceSet, 3> slices{};  // as ranges
+    gpu::Region region{};
+    bool isMirror = false;
+    bool disperses = false;
+  };
+
+  void add(SceneTransport& transport, const View& view, uint32_t object, const MeshExtent& extent,
+           const gpu::Region& region, const MediumStack& media);
+  void upload(const View& view);
+  void clear(gpu::CommandList& commands, const SeenImages& seen) const;
+  void drawDepth(gpu::CommandList& commands, const FrameImages& images);
+  void drawReceivers(gpu::CommandList& commands, const GpuScene& gpuScene, const SightFrame& frame,
+                     vec2 depths, const gpu::Image& texels, const gpu::Image& textureDepths, uint32_t layer);
+  void drawSlices(gpu::CommandList& commands, const GpuScene& gpuScene, const SliceSet& set);
+  void drawSurroundings(gpu::CommandList& commands, const GpuScene& gpuScene, const SeenCaster& caster);
+  void drawSeen(gpu::CommandList& commands, const SeenCaster& caster, uint32_t channel,
+                const SeenImages& seen, const gpu::Image& depth);
+  void drawReflected(gpu::CommandList& commands, const SeenCaster& caster, const FrameImages& images);
+
+  gpu::Device& device_;
+  SightSettings settings_;
+  gpu::Program depthProgram_, sightProgram_, reflectionProgram_, normalProgram_;
+  gpu::Program sliceProgram_, texturedSliceProgram_;
+  gpu::Image slices_, sliceDepths_, surroundings_, surroundingDepths_;  // of one caster after the other
+  gpu::Buffer vertices_, indices_, camera_;
+
+  // Of the frame being made.
+  std::vector<SightMesh> meshes_;
+  std::vector<SeenCaster> casters_;
+  std::vector<ReceiverBounds> receivers_;
+  std::vector<vec3> receiverColors_;  // of the objects
+  std::vector<uint32_t> receiverMaterials_;
+  std::vector<bool> isTextured_;
+  gpu::Region region_{};
+  bool disperses_ = false;
+  bool reflects_ = false;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,20 @@
+// A texel of a sliced object image: normal, reflectance and material, and depth.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "render/sight/sight_data.h"
+
+#include "render/sight/slice_texel.glsl.h"
+
+layout(constant_id = 0) const bool kHasTexture = false;
+layout(push_constant, scalar) uniform Constants { SliceConstants constants; };
+layout(set = 0, binding = 0) uniform sampler2D colorTexture;
+layout(location = 0) in vec3 normal;
+layout(location = 1) in vec2 texcoord;
+layout(location = 2) in float depth;
+layout(location = 0) out uvec4 texel;
+
+void main() {
+  vec3 albedo = constants.color;
+  if (kHasTexture) albedo *= texture(colorTexture, texcoord).rgb;
+  texel = packSliceTexel(normalize(normal), albedo, constants.material, depth);
+}

@@ -1,0 +1,226 @@
+#include "render/sight/view_rays.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "optics/curved_triangle.h"
+
+namespace nephroid {
+namespace {
+
+constexpr std::size_t kBlock = 256;         // triangles that one task looks at
+constexpr float kSmallestSide = 1.5f;       // pixels: shorter ones are not cut
+constexpr float kLongestStraightSide = 12;  // pixels: between nearer vertices rays are taken as they are
+constexpr uint32_t kMostCuts = 8;
+constexpr float kInset = 1e-3f;  // rays of a cut triangle start this part of the way toward its middle
+
+struct Corner {
+  vec3 weights{0};  // barycentric, in the mesh's triangle
+  vec3 position{0};
+  vec3 normal{0};
+  OutgoingRay ray{};
+};
+using Triangle = std::array<Corner, 3>;
+
+SightVertex vertexOf(const Corner& corner) {
+  return {corner.position, corner.normal, corner.ray.position, corner.ray.direction,
+          corner.ray.transmittance};
+}
+
+bool isLost(const OutgoingRay& ray) {
+  return (ray.flags & kRayLost) != 0;
+}
+
+// Cuts one triangle of the mesh where its rays part.
+class Cutter {
+ public:
+  Cutter(const TransportSource& sourceToAsk, const TransportQuery& queryOf, float pixel, bool curved,
+         uint32_t patchOf, const Triangle& whole)
+      : source(sourceToAsk), query(queryOf), pixelAngle(pixel), isCurved(curved), patch(patchOf) {
+    for (int i = 0; i < 3; ++i) {
+      positions[i] = whole[std::size_t(i)].position;
+      normals[i] = whole[std::size_t(i)].normal;
+    }
+    geometricNormal = normalize(cross(positions[1] - positions[0], positions[2] - positions[0]));
+  }
+
+  void add(Triangle triangle, std::vector<Triangle>& pieces) const {
+    for (Corner& corner : triangle) corner = at(corner.weights, vec3(1 / 3.0f));
+    refine(triangle, kMostCuts, pieces);
+  }
+
+ private:
+  Corner at(vec3 weights, vec3 center) const {
+    const vec3 inside = mix(weights, center, kInset);
+    SurfacePoint point;
+    point.position = point.flatPosition = positions * inside;
+    if (isCurved) point.position += curvedOffset(point.flatPosition, inside, positions, normals);
+    point.normal = normalize(normals * inside);
+    point.geometricNormal = geometricNormal;
+    point.patch = patch;
+    return {weights, positions * weights, normalize(normals * weights), source.rayAt(query, point)};
+  }
+
+  float pixels(const Corner& a, const Corner& b) const {
+    const vec3 eye = query.emitter.position;
+    return distance(a.position, b.position) / (pixelAngle * std::max(distance(a.position, eye), 1e-6f));
+  }
+
+  static bool sameWay(const Corner& a, const Corner& b) {
+    return isLost(a.ray) == isLost(b.ray) && (isLost(a.ray) || a.ray.signature == b.ray.signature);
+  }
+
+  // Whether the ray at a side's middle is off the mean of those at its ends.
+  bool bends(const Corner& a, const Corner& b, const Corner& middle) const {
+    if (!sameWay(a, middle) || !sameWay(b, middle)) return true;
+    const float pixel = pixelAngle * distance(middle.position, query.emitter.position);  // m
+    return distance(middle.ray.direction, normalize(a.ray.direction + b.ray.direction)) > 2 * pixelAngle ||
+           distance(middle.ray.position, 0.5f * (a.ray.position + b.ray.position)) > pixel;
+  }
+
+  void refine(const Triangle& t, uint32_t cuts, std::vector<Triangle>& pieces) const {
+    const float longest = std::max({pixels(t[0], t[1]), pixels(t[1], t[2]), pixels(t[2], t[0])});
+    const bool isSteady = sameWay(t[0], t[1]) && sameWay(t[0], t[2]);
+    if (cuts == 0 || longest < (isSteady ? kLongestStraightSide : kSmallestSide)) {
+      pieces.push_back(isSteady ? t : ofOneRay(t));
+      return;
+    }
+    const vec3 center = (t[0].weights + t[1].weights + t[2].weights) / 3.0f;
+    Triangle m;
+    for (std::size_t i = 0; i < 3; ++i) m[i] = at(0.5f * (t[i].weights + t[(i + 1) % 3].weights), center);
+    if (isSteady && !bends(t[0], t[1], m[0]) && !bends(t[1], t[2], m[1]) && !bends(t[2], t[0], m[2])) {
+      pieces.push_back(t);
+      return;
+    }
+    for (const Triangle& part : {Triangle{t[0], m[0], m[2]}, Triangle{m[0], t[1], m[1]},
+                                 Triangle{m[2], m[1], t[2]}, Triangle{m[0], m[1], m[2]}})
+      refine(part, cuts - 1, pieces);
+  }
+
+  // What is too small to be cut looks the way of its first corner that is not lost.
+  static Triangle ofOneRay(Triangle t) {
+    const auto found = std::find_if(t.begin(), t.end(), [](const Corner& c) { return !isLost(c.ray); });
+    const OutgoingRay ray = found == t.end() ? t[0].ray : found->ray;
+    for (Corner& corner : t) corner.ray = ray;
+    return t;
+  }
+
+  const TransportSource& source;
+  const TransportQuery& query;
+  const float pixelAngle;
+  const bool isCurved;
+  const uint32_t patch;
+  mat3 positions{1}, normals{1};
+  vec3 geometricNormal{0};
+};
+
+// What became of a block of triangles: the vertices of the mesh of those that are whole, and the pieces of
+// those that were cut.
+struct Block {
+  std::vector<uint32_t> indices;
+  std::vector<Triangle> pieces;
+};
+
+class Collector {
+ public:
+  Collector(const Scene& scene, const TransportSource& sourceToAsk, const TransportQuery& queryOf,
+            float pixel)
+      : source(sourceToAsk),
+        query(queryOf),
+        pixelAngle(pixel),
+        object(scene.objects[queryOf.object]),
+        mesh(scene.meshOf(object)),
+        facing(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f),
+        rays(mesh.positions.size()) {
+    source.vertexRays(query, rays);
+    corners.reserve(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      corners.push_back({{},
+                         object.placement.point(mesh.positions[i]),
+                         object.placement.direction(mesh.normals[i]),
+                         rays[i]});
+  }
+
+  SightMesh collect() const {
+    const std::size_t blocks = (mesh.triangles.size() + kBlock - 1) / kBlock;
+    std::vector<Block> parts(blocks);
+    oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      const std::size_t end = std::min(mesh.triangles.size(), (block + 1) * kBlock);
+      for (std::size_t t = block * kBlock; t < end; ++t) add(mesh.triangles[t], parts[block]);
+    });
+    SightMesh result;
+    result.vertices.reserve(corners.size());
+    for (const Corner& corner : corners) result.vertices.push_back(vertexOf(corner));
+    for (const Block& part : parts) {
+      result.indices.insert(result.indices.end(), part.indices.begin(), part.indices.end());
+      for (const Triangle& piece : part.pieces)
+        for (const Corner& corner : piece) {
+          result.indices.push_back(uint32_t(result.vertices.size()));
+          result.vertices.push_back(vertexOf(corner));
+        }
+    }
+    return result;
+  }
+
+ private:
+  bool isSeen(const uvec3& t) const {
+    if (!mesh.isClosed) return true;
+    const vec3 a = corners[t.x].position;
+    const vec3 across = cross(corners[t.y].position - a, corners[t.z].position - a);
+    return facing * dot(across, query.emitter.position - a) > 0;
+  }
+
+  bool isLong(const uvec3& t) const {
+    const vec3 a = corners[t.x].position, b = corners[t.y].position, c = corners[t.z].position;
+    const float longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
+    return longest > kLongestStraightSide * pixelAngle * distance(a, query.emitter.position);
+  }
+
+  void add(const uvec3& t, Block& block) const {
+    if (!isSeen(t)) return;
+    const OutgoingRay &a = rays[t.x], &b = rays[t.y], &c = rays[t.z];
+    const bool goesOneWay =
+        !isLost(a) && !isLost(b) && !isLost(c) && a.signature == b.signature && a.signature == c.signature;
+    if (goesOneWay && !isLong(t)) {
+      block.indices.insert(block.indices.end(), {t.x, t.y, t.z});
+      return;
+    }
+    Triangle whole{corners[t.x], corners[t.y], corners[t.z]};
+    for (int i = 0; i < 3; ++i) whole[std::size_t(i)].weights = mat3(1)[i];
+    Cutter(source, query, pixelAngle, mesh.isCurved, 0, whole).add(whole, block.pieces);
+  }
+
+  const TransportSource& source;
+  const TransportQuery& query;
+  const float pixelAngle;
+  const Object& object;
+  const Mesh& mesh;
+  const float facing;  // -1 where the viewer is inside the caster
+  std::vector<OutgoingRay> rays;
+  std::vector<Corner> corners;
+};
+
+}  // namespace
+
+TransportQuery sightQuery(uint32_t object, vec3 eye, uint32_t channel, const MediumStack& media) {
+  TransportQuery query;
+  query.object = object;
+  query.emitter.type = kEmitterPoint;
+  query.emitter.position = eye;
+  query.channel = channel;
+  query.paths = Paths::all;
+  query.media = media;
+  query.isSight = true;
+  return query;
+}
+
+SightMesh sightMesh(const Scene& scene, const TransportSource& source, const TransportQuery& query,
+                    float pixelAngle) {
+  return Collector(scene, source, query, pixelAngle).collect();
+}
+
+}  // namespace nephroid

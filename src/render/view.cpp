@@ -1,0 +1,57 @@
+#include "render/view.h"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+namespace nephroid {
+
+View viewOf(const Camera& camera, uvec2 size) {
+  View view;
+  view.eye = camera.position;
+  view.forward = normalize(camera.target - camera.position);
+  const float tangent = std::tan(0.5f * glm::radians(camera.verticalFov));
+  const vec3 up = std::abs(dot(view.forward, normalize(camera.up))) < 0.9999f ? camera.up : vec3(0, 0, -1);
+  const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
+  view.nearest = 1e-4f * distance(camera.target, camera.position);
+  view.pixelAngle = 2 * tangent / static_cast<float>(size.y);
+  mat4 projection(0);
+  projection[0][0] = 1 / (tangent * aspect);
+  projection[1][1] = -1 / tangent;
+  projection[2][3] = -1;
+  projection[3][2] = view.nearest;
+  view.worldToClip = projection * glm::lookAtRH(camera.position, camera.target, up);
+  return view;
+}
+
+gpu::Region regionOf(const View& view, uvec2 size, const std::array<vec3, 8>& corners) {
+  vec2 low(std::numeric_limits<float>::infinity());
+  vec2 high = -low;
+  int behind = 0;
+  for (const vec3 corner : corners) {
+    const vec4 clip = view.worldToClip * vec4(corner, 1);
+    if (clip.w < view.nearest) {
+      ++behind;
+      continue;
+    }
+    const vec2 pixel = (0.5f * vec2(clip) / clip.w + 0.5f) * vec2(size);
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel);
+  }
+  if (behind == 8) return {};
+  if (behind > 0) return {{0, 0}, size};
+  const vec2 first = glm::clamp(glm::floor(low) - 1.0f, vec2(0), vec2(size));
+  const vec2 last = glm::clamp(glm::ceil(high) + 1.0f, vec2(0), vec2(size));
+  if (!(first.x < last.x && first.y < last.y)) return {};
+  return {ivec2(first), uvec2(last - first)};
+}
+
+gpu::Region unionOf(const gpu::Region& a, const gpu::Region& b) {
+  if (a.size.x == 0) return b;
+  if (b.size.x == 0) return a;
+  const ivec2 low = glm::min(a.corner, b.corner);
+  const ivec2 high = glm::max(a.corner + ivec2(a.size), b.corner + ivec2(b.size));
+  return {low, uvec2(high - low)};
+}
+
+}  // namespace nephroid

@@ -1,0 +1,30 @@
+// The camera as passes are told of it.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "gpu/command_list.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+// A pinhole camera. World space.
+struct View {
+  mat4 worldToClip;  // y down; depth is `nearest` over the distance along `forward`
+  vec3 eye;          // m
+  vec3 forward;      // unit
+  float nearest;     // m
+  float pixelAngle;  // radians between neighbouring pixels, in the middle of the picture
+};
+
+// Sees infinitely far, and as near as a ten-thousandth of the distance to what is looked at.
+View viewOf(const Camera& camera, uvec2 size);
+
+// The pixels that a box with these corners (m, world space) may cover; of no size where there are none.
+gpu::Region regionOf(const View& view, uvec2 size, const std::array<vec3, 8>& corners);
+
+// The smallest that holds both.
+gpu::Region unionOf(const gpu::Region& a, const gpu::Region& b);
+
+}  // namespace nephroid
