@@ -6,6 +6,7 @@
 #include "gpu_fixture.h"
 #include "render/frame.h"
 #include "render/picture.h"
+#include "scene/emitters.h"
 #include "techniques/registry.h"
 #include "test_meshes.h"
 
@@ -42,7 +43,7 @@ class Frame : public GpuTest {
     settings.technique = "none";
     SceneTransport transport(scene, settings, progress);
     const auto technique = makeTechnique({device(), settings, transport, stats});
-    Renderer renderer(device(), transport, {.size = kSize}, *technique);
+    Renderer renderer(device(), transport, {.size = kSize, .shadowMapSize = 1024}, *technique);
     renderer.render(scene);
     picture_ = renderer.picture();
     return renderer.layers();
@@ -241,6 +242,59 @@ INSTANTIATE_TEST_SUITE_P(
                    MaterialType::diffuse, true}),
     [](const auto& shadow) { return shadow.param.name; });
 
+// The maps of a line's points share one orientation, also where the line points at what shades.
+struct LineCase {
+  const char* name;
+  vec3 from, to;
+};
+
+void PrintTo(const LineCase& line, std::ostream* out) {
+  *out << line.name;
+}
+
+class LineShadow : public Frame, public testing::WithParamInterface<LineCase> {};
+
+TEST_P(LineShadow, IsThatOfEachOfItsPoints) {
+  Scene scene = floorScene();
+  const vec3 center(0.3f, 0.6f, 0.1f), halfSize(0.31f, 0.1f, 0.23f);
+  scene.meshes.push_back(box(halfSize));
+  scene.objects.push_back({"block", 1, 0, {center, quat(1, 0, 0, 0), 1}, std::nullopt});
+  Light line = lightOf(LightType::line, GetParam().from, {0, -1, 0});
+  line.end = GetParam().to;
+  line.samples = 3;
+  scene.lights.push_back(line);
+  const Image image = layersOf(scene);
+  const float margin = 0.05f;  // m: more than the filter reaches, and the point is moved off the floor
+  std::size_t partlyShaded = 0;
+  for (std::size_t i = 0; i < image.pixelCount() && !HasFatalFailure(); ++i) {
+    const vec3 p = floorPoint(scene, i);
+    if (segmentMeetsBox(p, scene.camera.position, center, halfSize + margin)) continue;
+    float lux = 0;
+    uint32_t shading = 0;
+    bool isClear = true;
+    for (const Emitter& point : emittersOf(line)) {
+      const vec3 toLight = point.position - p;
+      const bool isShaded = segmentMeetsBox(p, point.position, center, halfSize - margin);
+      isClear = isClear && isShaded == segmentMeetsBox(p, point.position, center, halfSize + margin);
+      shading += isShaded;
+      if (!isShaded) lux += point.power.y * toLight.y / std::pow(length(toLight), 3.0f);
+    }
+    if (!isClear) continue;
+    ASSERT_NEAR(image.find("direct.G")->at(i), 0.4f / kPi * lux, 2 * kFloat * lux)
+        << "pixel " << i % kSize.x << ", " << i / kSize.x;
+    partlyShaded += shading > 0 && shading < line.samples;
+  }
+  EXPECT_GT(partlyShaded, 50u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lines, LineShadow,
+                         testing::Values(LineCase{"Above", {-1, 2, 0.5f}, {2, 2, 0.2f}},
+                                         LineCase{"Aslant", {-0.5f, 1.5f, 1}, {2, 3, 0.5f}},
+                                         LineCase{
+                                             "PointingAtTheBlock", {0.4f, 0.65f, 0.2f}, {1, 3.35f, 0.6f}},
+                                         LineCase{"BesideTheBlock", {1.2f, 0.7f, -1}, {1.2f, 0.8f, 1}}),
+                         [](const auto& line) { return std::string(line.param.name); });
+
 // With walls all around that are not flat the light needs six maps; nothing may shade itself.
 TEST_F(Frame, ALightInsideARoomShadesNoneOfItsWalls) {
   Scene scene;
@@ -381,7 +435,7 @@ TEST_F(Frame, MovingObjectsNeedsNoNewRenderer) {
   settings.technique = "none";
   SceneTransport transport(scene, settings, progress);
   const auto technique = makeTechnique({device(), settings, transport, stats});
-  Renderer renderer(device(), transport, {.size = kSize}, *technique);
+  Renderer renderer(device(), transport, {.size = kSize, .shadowMapSize = 1024}, *technique);
   renderer.render(scene);
   renderer.render(moved);
   const std::vector<uint8_t> picture = renderer.picture().bytes;

@@ -25,22 +25,25 @@ mat4 toWorld(const Placement& placement) {
   return map;
 }
 
-DirectConstants directConstants(const ShadowPlan& plan, const ShadowedEmitter& lit) {
+DirectConstants directConstants(const ShadowedLight& light) {
   DirectConstants constants{};
-  constants.emitter = lit.emitter;
-  constants.texelSize = lit.texelSize;
-  constants.texelSizePerDepth = lit.texelSizePerDepth;
-  constants.firstMap = lit.firstMap;
-  if (lit.mapCount == 0) return constants;
-  // In a perspective the third row is depthScale times the fourth, and depthOffset.
-  const mat4 rows = glm::transpose(plan.maps[lit.firstMap].worldToMap);
-  constants.mapX = rows[0];
-  constants.mapY = rows[1];
-  constants.mapDepth = rows[2];
-  if (lit.texelSizePerDepth > 0) {
-    constants.mapDepth = rows[3];
-    constants.depthScale = dot(vec3(rows[2]), vec3(rows[3])) / dot(vec3(rows[3]), vec3(rows[3]));
-    constants.depthOffset = rows[2].w - constants.depthScale * rows[3].w;
+  constants.emitter = light.emitter;
+  constants.samples = light.samples;
+  if (light.samples > 1) constants.emitter.direction = light.step;
+  if (light.mapCount == 0) return constants;
+  const ShadowProjection& projection = light.projection;
+  const float width = 2 * projection.halfWidth, depth = projection.farthest - projection.nearest;
+  constants.mapX = projection.right / width;
+  constants.mapY = projection.up / width;
+  constants.aim = projection.aim;
+  constants.texelSize = width / float(light.resolution);
+  if (light.emitter.type == kEmitterDirectional) {
+    constants.mapDepth = projection.forward / depth;
+    constants.depthOffset = -projection.nearest / depth;
+  } else {
+    constants.mapDepth = projection.forward;
+    constants.depthScale = projection.farthest / depth;
+    constants.depthOffset = -constants.depthScale * projection.nearest;
   }
   return constants;
 }
@@ -52,47 +55,56 @@ DirectLight::DirectLight(gpu::Device& device, uint32_t shadowMapSize)
       shadowMapSize_(shadowMapSize),
       shadowProgram_(shadowProgram(device, "shadow", VK_CULL_MODE_NONE)),
       closedShadowProgram_(shadowProgram(device, "closed shadow", VK_CULL_MODE_BACK_BIT)),
-      sampler_(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {
-  for (const uint32_t type : {kEmitterDirectional, kEmitterPoint, kEmitterSpot})
-    for (const uint32_t maps : {0u, 1u, 6u})
-      programs_[{type, maps}] = gpu::createRasterProgram(
-          device, "direct", shaders::whole_picture_vert, shaders::direct_frag,
-          {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}}, {{0, type}, {1, maps}});
+      sampler_(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {}
+
+DirectLight::ProgramKey DirectLight::keyOf(const ShadowedLight& light) {
+  return {light.emitter.type, light.mapCount, light.samples > 1};
 }
 
 void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& extents) {
-  plan_ = planShadowMaps(scene, extents, shadowMapSize_);
+  lights_ = planShadowMaps(scene, extents, shadowMapSize_);
   objectsToWorld_.clear();
   for (const Object& object : scene.objects) objectsToWorld_.push_back(toWorld(object.placement));
-  const auto layers = std::max<uint32_t>(static_cast<uint32_t>(plan_.maps.size()), 1);
-  if (!maps_ || maps_.layerCount() < layers)
-    maps_ = gpu::createImage(device_, "shadow maps",
-                             {.format = VK_FORMAT_D32_SFLOAT,
-                              .width = shadowMapSize_,
-                              .height = shadowMapSize_,
-                              .layers = layers});
+  maps_.resize(lights_.size());
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const ShadowedLight& light = lights_[i];
+    const auto layers = std::max<uint32_t>(static_cast<uint32_t>(light.maps.size()), 1);
+    if (!maps_[i] || maps_[i].layerCount() < layers || maps_[i].width() != light.resolution)
+      maps_[i] = gpu::createImage(device_, "shadow maps",
+                                  {.format = VK_FORMAT_D32_SFLOAT,
+                                   .width = light.resolution,
+                                   .height = light.resolution,
+                                   .layers = layers});
+    const ProgramKey key = keyOf(light);
+    if (!programs_.contains(key))
+      programs_[key] =
+          gpu::createRasterProgram(device_, "direct light", shaders::whole_picture_vert, shaders::direct_frag,
+                                   {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
+                                   {{0, key.type}, {1, key.mapCount}, {2, key.isLine}});
+  }
 }
 
 void DirectLight::recordShadowMaps(gpu::CommandList& commands, const GpuScene& gpuScene) {
-  for (uint32_t layer = 0; layer < plan_.maps.size(); ++layer) {
-    const ShadowMap& map = plan_.maps[layer];
-    commands.render({.colors = {}, .depth = gpu::DepthAttachment{&maps_, layer, 1.0f}}, [&] {
-      for (const ShadowCaster& caster : map.casters)
-        commands.drawIndexed(
-            caster.hidesItsFarSide ? closedShadowProgram_ : shadowProgram_, gpuScene.indices(),
-            gpuScene.draws()[caster.object].range, 1,
-            ShadowConstants{gpuScene.vertices(), map.worldToMap * objectsToWorld_[caster.object]});
-    });
-  }
+  for (std::size_t i = 0; i < lights_.size(); ++i)
+    for (uint32_t layer = 0; layer < lights_[i].maps.size(); ++layer) {
+      const ShadowMap& map = lights_[i].maps[layer];
+      commands.render({.colors = {}, .depth = gpu::DepthAttachment{&maps_[i], layer, 1.0f}}, [&] {
+        for (const ShadowCaster& caster : map.casters)
+          commands.drawIndexed(
+              caster.hidesItsFarSide ? closedShadowProgram_ : shadowProgram_, gpuScene.indices(),
+              gpuScene.draws()[caster.object].range, 1,
+              ShadowConstants{gpuScene.vertices(), map.worldToMap * objectsToWorld_[caster.object]});
+      });
+    }
 }
 
 void DirectLight::record(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& lux) {
   const bool isAll = points.region.size.x == 0 || points.region.size.y == 0;
   commands.render(
       {.colors = {{&lux, 0, vec4(0)}}, .region = isAll ? std::nullopt : std::optional(points.region)}, [&] {
-        for (const ShadowedEmitter& lit : plan_.emitters)
-          commands.draw(programs_.at({lit.emitter.type, lit.mapCount}), 3, 1, directConstants(plan_, lit),
-                        {*points.position, *points.normal, {maps_, sampler_}});
+        for (std::size_t i = 0; i < lights_.size(); ++i)
+          commands.draw(programs_.at(keyOf(lights_[i])), 3, 1, directConstants(lights_[i]),
+                        {*points.position, *points.normal, {maps_[i], sampler_}});
       });
 }
 

@@ -1,8 +1,8 @@
 // Light that met no caster: what of each emitter's light reaches receivers past all that stands in its way.
 #pragma once
 
+#include <compare>
 #include <map>
-#include <utility>
 #include <vector>
 
 #include "gpu/command_list.h"
@@ -18,7 +18,7 @@ namespace nephroid {
 // does.
 class DirectLight {
  public:
-  // The device outlives it. `shadowMapSize` is in texels along a side.
+  // The device outlives it. `shadowMapSize` is that of planShadowMaps.
   DirectLight(gpu::Device& device, uint32_t shadowMapSize);
 
   // What the host does in a frame. `extents` are those of scene.meshes. Nothing is in use by the device.
@@ -31,18 +31,26 @@ class DirectLight {
   void record(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& lux);
 
  private:
+  // What a pipeline is made for. A light's points have no shadow map, one, or six.
+  struct ProgramKey {
+    uint32_t type = kEmitterPoint;
+    uint32_t mapCount = 0;
+    bool isLine = false;
+    auto operator<=>(const ProgramKey&) const = default;
+  };
+  static ProgramKey keyOf(const ShadowedLight& light);
+
   gpu::Device& device_;
   uint32_t shadowMapSize_;
   gpu::Program shadowProgram_;
   // For closed objects about which the light is not: their far sides shade nothing more.
   gpu::Program closedShadowProgram_;
-  std::map<std::pair<uint32_t, uint32_t>, gpu::Program>
-      programs_;  // by kEmitter... and count of shadow maps (0, 1 or 6)
+  std::map<ProgramKey, gpu::Program> programs_;
   gpu::Sampler sampler_;
-  gpu::Image maps_;
+  std::vector<gpu::Image> maps_;  // of each light
 
   // Of the frame being made.
-  ShadowPlan plan_;
+  std::vector<ShadowedLight> lights_;
   std::vector<mat4> objectsToWorld_;
 };
 

@@ -42,7 +42,8 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       programs_(createFramePrograms(device, hasEmission(transport.scene()))),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
       sight_(device, settings.sight),
-      directLight_(device, settings.shadowMapSize) {
+      directLight_(device, settings.shadowMapSize > 0 ? settings.shadowMapSize
+                                                      : std::max(settings.size.x, settings.size.y)) {
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
 }
 

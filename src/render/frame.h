@@ -14,8 +14,8 @@
 namespace nephroid {
 
 struct RenderSettings {
-  uvec2 size{640, 480};           // pixels
-  uint32_t shadowMapSize = 1024;  // texels along a side
+  uvec2 size{640, 480};        // pixels
+  uint32_t shadowMapSize = 0;  // texels along a side; 0: as many as pixels along the picture's longer side
   SightSettings sight;
 };
 

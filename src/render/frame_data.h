@@ -23,16 +23,21 @@ struct SurfaceConstants {
   uint material;
 };
 
+// A light and the projection that its shadow maps share: each map looks along `mapDepth`, with `aim` in its
+// middle.
 struct DirectConstants {
-  Emitter emitter;
-  vec4 mapX;  // a point's place in the map: dot(mapX, (point, 1)) and mapY, over the depth in a perspective
-  vec4 mapY;
-  vec4 mapDepth;     // m along the map's axis in a perspective, else the map's depth
-  float depthScale;  // perspective: the map's depth is depthScale + depthOffset / dot(mapDepth, (point, 1))
+  Emitter emitter;  // of a line: the first of its points, with `direction` (m) from one to the next
+  vec3 mapX;  // dot(mapX, q) and dot(mapY, q), over the depth in a perspective: the place in a map, which
+              // is 1 across; q goes from the light to the point, or from `aim` for a directional light
+  float depthScale;  // what a map holds: depthScale + depthOffset / depth in a perspective, else
+                     // depth + depthOffset
+  vec3 mapY;
   float depthOffset;
-  float texelSize;          // m, width of a map's texel on a surface facing the light is
-  float texelSizePerDepth;  // texelSize + texelSizePerDepth * depth; 0 unless in perspective
-  uint firstMap;
+  vec3 mapDepth;    // depth: dot(mapDepth, q), m in a perspective
+  float texelSize;  // m, the width of a map's texel on a surface facing the light; at a depth of 1 m in a
+                    // perspective
+  vec3 aim;         // m
+  uint samples;     // points of a line
 };
 
 struct CompositeConstants {

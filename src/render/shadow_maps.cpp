@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/emitters.h"
 
@@ -87,19 +86,63 @@ bool reachesInto(const mat4& worldToMap, const Sphere& sphere) {
   return true;
 }
 
-mat4 lookAlong(vec3 position, vec3 direction) {
-  const vec3 up = std::abs(direction.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0);
-  return glm::lookAtRH(position, position + direction, up);
+constexpr float kFewestTexels = 64;      // along a side, so that a map's border is empty
+constexpr float kWidestTangent = 1.75f;  // of what one map may see, half of it: about 60 degrees
+
+void setAxes(ShadowProjection& projection, vec3 forward) {
+  const vec3 up = std::abs(forward.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0);
+  projection.forward = forward;
+  projection.right = normalize(cross(forward, up));
+  projection.up = cross(projection.right, forward);
 }
 
-// A light's view of `sphere` in a square cone; the depth range holds the sphere as far as it is in front of
-// the light.
-mat4 coneProjection(vec3 position, vec3 direction, float tangent, const Sphere& sphere) {
-  const float away = distance(position, sphere.center);
-  const float farthest = away + sphere.radius;
-  const float nearest = std::max(away - sphere.radius, 1e-3f * farthest);
-  return glm::perspectiveRH_ZO(2 * std::atan(tangent), 1.0f, nearest, farthest * 1.001f) *
-         lookAlong(position, direction);
+// The tangent of what a map along unit `forward` must see on either side of the sphere's middle, infinite
+// where the sphere is not wholly ahead.
+float tangentOf(const Sphere& sphere, vec3 position, vec3 forward) {
+  const vec3 toCenter = sphere.center - position;
+  const float depth = dot(toCenter, forward);
+  if (depth <= sphere.radius) return std::numeric_limits<float>::infinity();
+  // In the plane of the axis and the sphere's middle it is the farthest.
+  const float aside = std::sqrt(std::max(dot(toCenter, toCenter) - depth * depth, 0.0f));
+  const float sine = sphere.radius / length(toCenter);
+  const float angle = std::atan2(aside, depth) + std::asin(std::min(sine, 1.0f));
+  if (angle >= glm::radians(89.0f)) return std::numeric_limits<float>::infinity();
+  return std::tan(angle) - aside / depth;
+}
+
+mat4 perspectiveMap(const ShadowProjection& projection, vec3 position) {
+  const vec3 toAim = projection.aim - position;
+  const vec2 middle =
+      vec2(dot(projection.right, toAim), dot(projection.up, toAim)) / dot(projection.forward, toAim);
+  const float depthScale = projection.farthest / (projection.farthest - projection.nearest);
+  const std::array<vec3, 4> rows{(projection.right - middle.x * projection.forward) / projection.halfWidth,
+                                 (projection.up - middle.y * projection.forward) / projection.halfWidth,
+                                 depthScale * projection.forward, projection.forward};
+  mat4 map(0);
+  for (int i = 0; i < 4; ++i) map = glm::row(map, i, vec4(rows[i], -dot(rows[i], position)));
+  map[3].z -= depthScale * projection.nearest;
+  return map;
+}
+
+mat4 parallelMap(const ShadowProjection& projection) {
+  const float width = projection.halfWidth, depth = projection.farthest - projection.nearest;
+  const std::array<vec3, 3> rows{projection.right / width, projection.up / width, projection.forward / depth};
+  mat4 map(1);
+  for (int i = 0; i < 3; ++i) map = glm::row(map, i, vec4(rows[i], -dot(rows[i], projection.aim)));
+  map[3].z -= projection.nearest / depth;
+  return map;
+}
+
+// Of one of the maps of one of a light's points.
+mat4 worldToMap(const ShadowedLight& lit, const Emitter& emitter, uint32_t face) {
+  if (emitter.type == kEmitterDirectional) return parallelMap(lit.projection);
+  if (lit.mapCount == 1) return perspectiveMap(lit.projection, emitter.position);
+  constexpr std::array<vec3, 6> kAxes{vec3(1, 0, 0),  vec3(-1, 0, 0), vec3(0, 1, 0),
+                                      vec3(0, -1, 0), vec3(0, 0, 1),  vec3(0, 0, -1)};
+  ShadowProjection projection = lit.projection;
+  setAxes(projection, kAxes[face]);
+  projection.aim = emitter.position + projection.forward;
+  return perspectiveMap(projection, emitter.position);
 }
 
 class Planner {
@@ -110,51 +153,79 @@ class Planner {
       if (!scene.meshOf(scene.objects[i]).positions.empty()) objects_.push_back(placed(scene, extents, i));
   }
 
-  void add(const Emitter& emitter, ShadowPlan& plan) {
-    ShadowedEmitter lit{};
-    lit.emitter = emitter;
-    lit.firstMap = static_cast<uint32_t>(plan.maps.size());
+  ShadowedLight plan(const Light& light) {
+    const std::vector<Emitter> points = emittersOf(light);
+    ShadowedLight lit;
+    lit.emitter = points.front();
+    lit.samples = static_cast<uint32_t>(points.size());
+    if (lit.samples > 1) lit.step = points[1].position - points[0].position;
+    lit.resolution = static_cast<uint32_t>(
+        std::max(kFewestTexels, std::round(float(resolution_) / std::sqrt(float(lit.samples)))));
     shadowing_.clear();
     for (const PlacedObject& object : objects_)
-      if (canShadow(object, objects_, emitter)) shadowing_.push_back(object);
-    if (!shadowing_.empty()) {
-      sphere_ = boundsOf(shadowing_);
-      sphere_.radius *= 1.02f;  // room for the filter
-      for (const mat4& projection : projections(lit)) plan.maps.push_back(map(projection, emitter));
-    }
-    lit.mapCount = static_cast<uint32_t>(plan.maps.size()) - lit.firstMap;
-    plan.emitters.push_back(lit);
+      if (std::ranges::any_of(points,
+                              [&](const Emitter& emitter) { return canShadow(object, objects_, emitter); }))
+        shadowing_.push_back(object);
+    if (shadowing_.empty()) return lit;
+    sphere_ = boundsOf(shadowing_);
+    sphere_.radius *= 1.02f;  // room for the filter
+    project(points, lit);
+    for (const Emitter& emitter : points)
+      for (uint32_t face = 0; face < lit.mapCount; ++face)
+        lit.maps.push_back(map(worldToMap(lit, emitter, face), emitter));
+    return lit;
   }
 
  private:
-  // Also sets the size of the texels.
-  std::vector<mat4> projections(ShadowedEmitter& lit) const {
-    const Emitter& emitter = lit.emitter;
-    const float texels = static_cast<float>(resolution_);
-    const float r = sphere_.radius;
-    if (emitter.type == kEmitterDirectional) {
-      lit.texelSize = 2 * r / texels;
-      return {glm::orthoRH_ZO(-r, r, -r, r, 0.0f, 2 * r) *
-              lookAlong(sphere_.center - r * emitter.direction, emitter.direction)};
+  void project(const std::vector<Emitter>& points, ShadowedLight& lit) const {
+    ShadowProjection& projection = lit.projection;
+    const float border = 1 + 4 / float(lit.resolution);
+    if (lit.emitter.type == kEmitterDirectional) {
+      lit.mapCount = 1;
+      setAxes(projection, lit.emitter.direction);
+      projection.aim = sphere_.center;
+      projection.halfWidth = sphere_.radius * border;
+      projection.nearest = -sphere_.radius;
+      projection.farthest = sphere_.radius;
+      return;
     }
-    const vec3 toCenter = sphere_.center - emitter.position;
-    const float sine = std::min(r / std::max(length(toCenter), 1e-20f), 1.0f);
-    const float cosCone = emitter.type == kEmitterSpot ? -emitter.coneOffset / emitter.coneScale : -1;
-    const float cosFit = std::sqrt(1 - sine * sine);
-    const float cosine = std::max(cosCone, cosFit);
-    if (cosine > 0.5f) {
-      const float tangent = std::sqrt(1 - cosine * cosine) / cosine * (1 + 4 / texels);
-      lit.texelSizePerDepth = 2 * tangent / texels;
-      const vec3 axis = cosCone > cosFit ? emitter.direction : normalize(toCenter);
-      return {coneProjection(emitter.position, axis, tangent, sphere_)};
+    const vec3 middle = 0.5f * (points.front().position + points.back().position);
+    const vec3 toCenter = sphere_.center - middle;
+    vec3 forward = length(toCenter) > 0 ? normalize(toCenter) : vec3(0, 0, -1);
+    float tangent = 0;
+    for (const Emitter& emitter : points)
+      tangent = std::max(tangent, tangentOf(sphere_, emitter.position, forward));
+    projection.aim = sphere_.center;
+    const float cosCone =
+        lit.emitter.type == kEmitterSpot ? -lit.emitter.coneOffset / lit.emitter.coneScale : -1;
+    const float tanCone = std::sqrt(std::max(1 - cosCone * cosCone, 0.0f)) / cosCone;
+    if (cosCone > 0 && tanCone < tangent) {
+      forward = lit.emitter.direction;
+      tangent = tanCone;
+      projection.aim = lit.emitter.position + sphere_.radius * forward;
     }
-    const float tangent = 1 + 8 / texels;  // the faces overlap by what the filter reaches over
-    lit.texelSizePerDepth = 2 * tangent / texels;
-    std::vector<mat4> faces;
-    for (const vec3 axis :
-         {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)})
-      faces.push_back(coneProjection(emitter.position, axis, tangent, sphere_));
-    return faces;
+    lit.mapCount = tangent < kWidestTangent ? 1 : 6;
+    setAxes(projection, forward);
+    // The faces of a cube overlap by what the filter reaches over.
+    projection.halfWidth = lit.mapCount == 1 ? tangent * border : 2 * border - 1;
+    setDepths(points, lit);
+  }
+
+  // Such that they hold the sphere as far as it is in front of each point.
+  void setDepths(const std::vector<Emitter>& points, ShadowedLight& lit) const {
+    ShadowProjection& projection = lit.projection;
+    projection.nearest = std::numeric_limits<float>::infinity();
+    projection.farthest = 0;
+    for (const Emitter& emitter : points) {
+      const vec3 toCenter = sphere_.center - emitter.position;
+      const float away = length(toCenter);
+      // What is seen in the corner of a cube's face is sqrt(3) times as far as it is deep.
+      const float nearest = lit.mapCount == 1 ? dot(toCenter, projection.forward) - sphere_.radius
+                                              : (away - sphere_.radius) / std::sqrt(3.0f);
+      projection.nearest = std::min(projection.nearest, nearest);
+      projection.farthest = std::max(projection.farthest, 1.001f * (away + sphere_.radius));
+    }
+    projection.nearest = std::max(projection.nearest, 1e-3f * projection.farthest);
   }
 
   ShadowMap map(const mat4& worldToMap, const Emitter& emitter) const {
@@ -171,7 +242,7 @@ class Planner {
 
   uint32_t resolution_;
   std::vector<PlacedObject> objects_;
-  std::vector<PlacedObject> shadowing_;  // of the emitter being added
+  std::vector<PlacedObject> shadowing_;  // of the light being planned
   Sphere sphere_;
 };
 
@@ -202,11 +273,12 @@ MeshExtent extentOf(const Mesh& mesh) {
   return extent;
 }
 
-ShadowPlan planShadowMaps(const Scene& scene, const std::vector<MeshExtent>& extents, uint32_t resolution) {
-  ShadowPlan plan;
+std::vector<ShadowedLight> planShadowMaps(const Scene& scene, const std::vector<MeshExtent>& extents,
+                                          uint32_t resolution) {
   Planner planner(scene, extents, resolution);
-  for (const Emitter& emitter : emittersOf(scene)) planner.add(emitter, plan);
-  return plan;
+  std::vector<ShadowedLight> lights;
+  for (const Light& light : scene.lights) lights.push_back(planner.plan(light));
+  return lights;
 }
 
 }  // namespace nephroid

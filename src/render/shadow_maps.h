@@ -31,24 +31,35 @@ struct ShadowMap {
   std::vector<ShadowCaster> casters;  // those that reach into it
 };
 
-// An emitter and the maps that see what stands in its light: none, one, or the six faces of a cube in the
-// order +x, -x, +y, -y, +z, -z.
-struct ShadowedEmitter {
-  Emitter emitter{};
-  uint32_t firstMap = 0;
-  uint32_t mapCount = 0;
-  float texelSize = 0;          // m, width of a map's texel on a surface facing the light, at clip w:
-  float texelSizePerDepth = 0;  // texelSize + texelSizePerDepth * w; 0 unless in perspective
+// How the maps of a light look: all along `forward`, or the six faces of a cube in the order +x, -x, +y, -y,
+// +z, -z.
+struct ShadowProjection {
+  vec3 right{1, 0, 0};  // unit axes of a map
+  vec3 up{0, 1, 0};
+  vec3 forward{0, 0, -1};
+  vec3 aim{0};  // m, what the middle of each map sees
+  float halfWidth =
+      1;              // of what a map sees across, over the depth in a perspective; m for a directional light
+  float nearest = 0;  // m from the light, in a perspective, or from `aim`: where a map's depth is 0
+  float farthest = 1;  // and where it is 1
 };
 
-struct ShadowPlan {
-  std::vector<ShadowedEmitter> emitters;
-  std::vector<ShadowMap> maps;
+// A light and the maps that see what stands in its way: for each of its points none, one, or six.
+struct ShadowedLight {
+  Emitter emitter{};  // the first of its points
+  vec3 step{0};       // m, from one point to the next
+  uint32_t samples = 1;
+  uint32_t mapCount = 0;    // for each point
+  uint32_t resolution = 1;  // texels along a side of a map
+  ShadowProjection projection;
+  std::vector<ShadowMap> maps;  // those of one point after those of another
 };
 
-// One map for a directional light, for a spot, and for a point light that sees all that can shadow within 60
-// degrees of an axis; six for other point lights. `extents` are those of scene.meshes; `resolution` is in
-// texels.
-ShadowPlan planShadowMaps(const Scene& scene, const std::vector<MeshExtent>& extents, uint32_t resolution);
+// One map for a directional light, for a spot, and for a point that sees all that can shadow within 60
+// degrees of an axis; six for other points. `extents` are those of scene.meshes. `resolution` is that of a
+// light of one point, in texels along a side; the points of a line, each of which has its share of the light
+// alone, have as many texels together.
+std::vector<ShadowedLight> planShadowMaps(const Scene& scene, const std::vector<MeshExtent>& extents,
+                                          uint32_t resolution);
 
 }  // namespace nephroid
