@@ -1,4 +1,5 @@
-// Directions on a square (Cigolle et al. 2014), once for C++ and GLSL: uniform where angles crowd at the poles.
+// Directions on a square (Cigolle et al. 2014), once for C++ and GLSL: uniform where angles crowd at the
+// poles.
 #ifndef NEPHROID_CORE_OCTAHEDRAL_H
 #define NEPHROID_CORE_OCTAHEDRAL_H
 

@@ -18,6 +18,19 @@ void onHost(std::vector<PassTime>& passes, const char* name, const Work& work) {
       {name, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()});
 }
 
+// Passes that run several times in a frame as one each, where they first ran.
+std::vector<PassTime> summedByName(const std::vector<PassTime>& passes) {
+  std::vector<PassTime> sums;
+  for (const PassTime& pass : passes) {
+    const auto found = std::ranges::find(sums, pass.name, &PassTime::name);
+    if (found == sums.end())
+      sums.push_back(pass);
+    else
+      found->milliseconds += pass.milliseconds;
+  }
+  return sums;
+}
+
 void clearRegion(gpu::CommandList& commands, const gpu::Image& image, const gpu::Region& region) {
   if (region.size.x == 0)
     commands.clear(image, vec4(0));
@@ -59,7 +72,7 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
     commands.pass("shadow maps", [&] { directLight_.recordShadowMaps(commands, gpuScene_); });
     technique_.record(commands, gpuScene_);
     commands.pass("receivers", [&] { drawReceivers(commands); });
-    commands.pass("casters", [&] { sight_.record(commands, gpuScene_, images_); });
+    sight_.record(commands, gpuScene_, images_);
     light(commands, images_.seen, {});
     if (sight_.reflects()) light(commands, images_.reflected, sight_.region());
     if (sight_.disperses())
@@ -67,7 +80,7 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
     commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}); });
   });
   passes.insert(passes.end(), onDevice.begin(), onDevice.end());
-  return passes;
+  return summedByName(passes);
 }
 
 void Renderer::place(const Scene& scene) {

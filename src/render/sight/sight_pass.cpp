@@ -261,22 +261,24 @@ void SightPass::clear(gpu::CommandList& commands, const SeenImages& seen) const 
 
 void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images) {
   if (casters_.empty()) return;
-  drawDepth(commands, images);
-  commands.render({.colors = {{&images.seen.transmittance, 0, vec4(0)}}, .region = region_}, [] {});
-  if (reflects_) clear(commands, images.reflected);
-  if (disperses_)
-    for (const SeenImages& seen : images.dispersed) clear(commands, seen);
+  commands.pass("casters", [&] {
+    drawDepth(commands, images);
+    commands.render({.colors = {{&images.seen.transmittance, 0, vec4(0)}}, .region = region_}, [] {});
+    if (reflects_) clear(commands, images.reflected);
+    if (disperses_)
+      for (const SeenImages& seen : images.dispersed) clear(commands, seen);
+  });
   for (const SeenCaster& caster : casters_) {
-    commands.barrier();
-    drawSurroundings(commands, gpuScene, caster);
+    commands.pass("surroundings", [&] { drawSurroundings(commands, gpuScene, caster); });
     for (uint32_t channel = 0; channel < (caster.disperses ? 3u : 1u); ++channel) {
-      if (channel > 0) commands.barrier();
-      drawSlices(commands, gpuScene, caster.slices[channel]);
-      commands.barrier();
-      drawSeen(commands, caster, channel, channel == 0 ? images.seen : images.dispersed[channel - 1],
-               images.depth);
+      commands.pass("sliced object images", [&] { drawSlices(commands, gpuScene, caster.slices[channel]); });
+      commands.pass("seen through casters", [&] {
+        drawSeen(commands, caster, channel, channel == 0 ? images.seen : images.dispersed[channel - 1],
+                 images.depth);
+      });
     }
-    if (!caster.isMirror) drawReflected(commands, caster, images);
+    if (!caster.isMirror)
+      commands.pass("reflected by casters", [&] { drawReflected(commands, caster, images); });
   }
 }
 

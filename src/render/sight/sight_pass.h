@@ -42,7 +42,8 @@ class SightPass {
   bool disperses() const { return disperses_; }
   bool reflects() const { return reflects_; }
 
-  // Puts what casters show over the receivers in `images`, and the casters into their depth.
+  // Puts what casters show over the receivers in `images`, and the casters into their depth, in passes of its
+  // own.
   void record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images);
 
   // The normals of the nearest casters; after `record`.
