@@ -193,7 +193,6 @@ Image Renderer::layers() {
     commands.pass("layers", [&] {
       composite(commands, programs_.layers,
                 {&images_.luminance, &images_.directLuminance, &images_.causticsLuminance});
-      sight_.recordNormals(commands, images_);
     });
   });
   Image layers;
@@ -210,7 +209,7 @@ Image Renderer::layers() {
   for (uint32_t y = first.y; y < first.y + region.size.y; ++y)
     for (uint32_t x = first.x; x < first.x + region.size.x; ++x) {
       const std::size_t i = std::size_t{y} * settings_.size.x + x;
-      if (casterNormals[i].a > 0) normals[i] = casterNormals[i];
+      if (casterNormals[i].a != 0) normals[i] = casterNormals[i];
     }
   std::vector<vec4> depths;
   for (const float depth : gpu::download<float>(device_, images_.depth))

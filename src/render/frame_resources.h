@@ -26,8 +26,9 @@ struct FrameImages {
   SeenImages seen;                      // in all channels, or in red alone where a caster disperses
   std::array<SeenImages, 2> dispersed;  // in green and blue; made when they are first needed
   SeenImages reflected;                 // by glass; made when it is first needed
-  gpu::Image casterNormal;       // unit, on the side of the viewer, a = 1 where a caster is in front of the
-                                 // receiver, else 0; filled for layers only
+  // On the side of the viewer, a = 1 where a caster is in front of the receiver, -1 where that is its inside;
+  // kept only where casters may be.
+  gpu::Image casterNormal;
   gpu::Image luminance;          // nit; filled for layers only
   gpu::Image directLuminance;    // nit; filled for layers only
   gpu::Image causticsLuminance;  // nit; filled for layers only

@@ -35,6 +35,7 @@ class SceneTransport {
   const Scene& scene() const { return now; }
   // What the settings ask for. Tables are found or made when it is first called.
   const TransportSource& source();
+  const RayScene& rayScene() const { return rays; }
   MediumStack mediaAround(const Emitter& emitter) const { return traced.mediaAround(emitter); }
 
  private:

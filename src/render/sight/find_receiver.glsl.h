@@ -4,104 +4,140 @@
 #include "render/sight/slice_texel.glsl.h"
 
 struct FoundReceiver {
-  vec3 position;   // m
-  vec3 normal;     // unit, toward where the ray comes from
-  vec4 albedo;     // a = material + 1
   float distance;  // m along the ray; negative: nothing is found
+  vec3 normal;     // unit
+  ivec3 texel;     // where its image shows it
 };
 
+const FoundReceiver kNothing = FoundReceiver(-1, vec3(0), ivec3(0));
 const int kStepsToPlane = 4;
+// A receiver is looked for first where the rays at the caster's vertices met one, to within this factor.
+const float kNearHint = 1.3;
 
-vec2 placeInFrame(SightFrame frame, vec3 point, float size) {
+struct SightRay {
+  vec3 origin;     // m
+  vec3 direction;  // unit
+};
+
+// One layer of the images: a frame of sight, the depths that it holds, and the texels along its sides.
+struct SightLayer {
+  SightFrame frame;
+  vec2 depths;
+  int layer;
+  float size;
+};
+
+vec2 placeInFrame(SightLayer from, vec3 point) {
+  const SightFrame frame = from.frame;
   const vec3 q = point - frame.apex;
   return (vec2(dot(q, frame.axisU), dot(q, frame.axisV)) * (frame.scale / dot(q, frame.axisW)) * 0.5 + 0.5) *
-         size;
+         from.size;
 }
 
-// Looks near the ray's point at `distance`, within the layer, for a receiver at `least` to `most` (m along
-// the ray).
-FoundReceiver findNear(vec3 origin, vec3 direction, float distance, float least, float most, SightFrame frame,
-                       int layer, utexture2DArray texels, texture2DArray depths) {
-  const float size = float(textureSize(depths, 0).x);
-  FoundReceiver found;
-  found.distance = -1;
-  vec2 place = placeInFrame(frame, origin + distance * direction, size);
+// Looks near the ray's point at `distance` for a receiver at range.x to range.y (m along the ray).
+FoundReceiver findNear(SightRay ray, float distance, vec2 range, SightLayer from, texture2DArray depths,
+                       utexture2DArray normals) {
+  const SightFrame frame = from.frame;
+  vec2 place = placeInFrame(from, ray.origin + distance * ray.direction);
   for (int i = 0; i < kStepsToPlane; ++i) {
-    if (any(lessThan(place, vec2(0))) || any(greaterThanEqual(place, vec2(size)))) return found;
-    const ivec3 at = ivec3(place, layer);
-    if (texelFetch(depths, at, 0).r == 1) return found;
-    const uvec4 texel = texelFetch(texels, at, 0);
-    const float depth = sliceDepth(texel);
-    const vec3 normal = sliceNormal(texel);
-    const vec2 slope = ((floor(place) + 0.5) / size * 2 - 1) / frame.scale;
+    if (any(lessThan(place, vec2(0))) || any(greaterThanEqual(place, vec2(from.size)))) return kNothing;
+    const ivec3 texel = ivec3(place, from.layer);
+    const float value = texelFetch(depths, texel, 0).r;
+    if (value == 0) return kNothing;
+    const float depth = depthFromImage(value, from.depths);
+    const vec3 normal = directionFromOctahedral(unpackUnorm2x16(texelFetch(normals, texel, 0).r));
+    const vec2 center = floor(place) + 0.5;
+    const vec2 slope = (center / from.size * 2 - 1) / frame.scale;
     const vec3 point = frame.apex + depth * (frame.axisW + slope.x * frame.axisU + slope.y * frame.axisV);
-    const float approach = dot(direction, normal);
-    if (abs(approach) < 1e-4) return found;
-    distance = dot(point - origin, normal) / approach;
-    if (!(distance >= least && distance <= most)) return found;
-    const vec3 meeting = origin + distance * direction;
-    if (dot(meeting - frame.apex, frame.axisW) <= 0) return found;
-    const vec2 next = placeInFrame(frame, meeting, size);
-    if (all(lessThan(abs(next - floor(place) - 0.5), vec2(i < kStepsToPlane - 1 ? 0.75 : 1.5)))) {
-      found = FoundReceiver(meeting, approach > 0 ? -normal : normal, sliceAlbedo(texel), distance);
-      return found;
-    }
-    place = next;
+    const float approach = dot(ray.direction, normal);
+    distance = dot(point - ray.origin, normal) / approach;
+    const vec3 meeting = ray.origin + distance * ray.direction;
+    if (!(distance >= range.x && distance <= range.y) || dot(meeting - frame.apex, frame.axisW) <= 0)
+      return kNothing;
+    place = placeInFrame(from, meeting);
+    if (all(lessThan(abs(place - center), vec2(i < kStepsToPlane - 1 ? 0.75 : 1.5))))
+      return FoundReceiver(distance, approach > 0 ? -normal : normal, texel);
   }
-  return found;
+  return kNothing;
 }
 
-// In the sliced object images, from the nearest slice on (Iwasaki 2005, 5.3).
-FoundReceiver findInSlices(vec3 origin, vec3 direction, SliceSet set, utexture2DArray texels,
-                           texture2DArray depths) {
-  FoundReceiver found;
-  found.distance = -1;
+SightLayer faceToward(vec3 point, vec3 center, float reach, int firstLayer) {
+  const vec3 direction = point - center;
+  const vec3 size = abs(direction);
+  uint face = direction.z > 0 ? 4u : 5u;
+  if (size.x >= size.y && size.x >= size.z)
+    face = direction.x > 0 ? 0u : 1u;
+  else if (size.y >= size.z)
+    face = direction.y > 0 ? 2u : 3u;
+  return SightLayer(faceOfCube(center, face), depthsAround(reach), firstLayer + int(face),
+                    float(kSurroundingSize));
+}
+
+// The search goes from try to try of these kinds: near the hint in its slice, near it in the images all
+// around; then through the slices from the nearest on (Iwasaki 2005, 5.3), each at several places along the
+// ray; then all around, farther and farther. One loop for all, because software devices run through every
+// branch that is written out.
+const int kHintedSlice = 0, kHintedAround = 1, kSlices = 2, kAround = 3, kEnd = 4;
+
+FoundReceiver findReceiver(SightRay ray, float hint, SliceSet set, vec3 center, float reach,
+                           texture2DArray depths, utexture2DArray normals) {
   const float size = float(textureSize(depths, 0).x);
-  const float approach = dot(direction, set.frame.axisW);
-  const float start = dot(origin - set.frame.apex, set.frame.axisW);
-  if (approach < 0.05) return found;
+  const float approach = dot(ray.direction, set.frame.axisW);
+  const float start = dot(ray.origin - set.frame.apex, set.frame.axisW);
+  const bool hasSlices = set.slices > 0 && approach >= 0.05;
+  int kind = hint > 0 ? (hasSlices ? kHintedSlice : kHintedAround) : (hasSlices ? kSlices : kAround);
+  // Where rays at all corners of the caster's triangle met nothing, nothing is looked for.
+  if (hint <= kNoReach) kind = kEnd;
+  int slice = 0, probe = 0;
   float nearDepth = set.firstDepth;
-  for (int i = 0; i < int(set.slices); ++i, nearDepth *= set.depthRatio) {
-    const float farDepth = nearDepth * set.depthRatio;
-    if ((set.occupied >> i & 1u) == 0 || farDepth <= start) continue;
-    const float least = max(nearDepth - start, 0) / approach;
-    const float most = (farDepth - start) / approach;
-    const vec2 first = placeInFrame(set.frame, origin + least * direction, size);
-    const vec2 last = placeInFrame(set.frame, origin + most * direction, size);
-    const vec2 off = max(max(-min(first, last), max(first, last) - size), vec2(0));
-    const int probes = clamp(int(distance(first, last) / 12) + 2, 2, 8);
-    const float tolerance = 0.1 * (most - least);
-    for (int probe = 0; probe < probes; ++probe) {
-      const float t = mix(least, most, (float(probe) + 0.5) / float(probes));
-      found = findNear(origin, direction, t, max(least - tolerance, 0), most + tolerance, set.frame, i,
-                       texels, depths);
+  float t = max(0.5 * distance(ray.origin, center), 1e-3 * reach);
+  while (kind != kEnd) {
+    const bool isHinted = kind == kHintedSlice || kind == kHintedAround;
+    float at = isHinted ? hint : t;
+    vec2 range = isHinted ? vec2(1 / kNearHint, kNearHint) * hint : vec2(0.4, 2.5) * t;
+    int probes = 1;
+    SightLayer layer;
+    if (kind == kHintedSlice || kind == kSlices) {
+      float first = nearDepth;
+      int i = slice;
+      if (kind == kHintedSlice) {
+        const float planes = log(max((start + hint * approach) / set.firstDepth, 1)) / log(set.depthRatio);
+        i = min(int(planes), int(set.slices) - 1);
+        first = set.firstDepth * pow(set.depthRatio, float(i));
+      }
+      layer = SightLayer(set.frame, depthsOfSlice(set, first), i, size);
+      if (kind == kSlices) {
+        const vec2 between = vec2(max(first - start, 0), max(first * set.depthRatio - start, 0)) / approach;
+        probes = clamp(int(distance(placeInFrame(layer, ray.origin + between.x * ray.direction),
+                                    placeInFrame(layer, ray.origin + between.y * ray.direction)) /
+                           12) +
+                           2,
+                       2, 8);
+        at = mix(between.x, between.y, (float(probe) + 0.5) / float(probes));
+        range = vec2(max(1.1 * between.x - 0.1 * between.y, 0), 1.1 * between.y - 0.1 * between.x);
+        if ((set.occupied >> i & 1u) == 0 || between.y == 0) probes = 0;
+      }
+    } else {
+      layer = faceToward(ray.origin + at * ray.direction, center, reach, int(kMostSlices));
+    }
+    if (probes > 0) {
+      const FoundReceiver found = findNear(ray, at, range, layer, depths, normals);
       if (found.distance >= 0) return found;
     }
+    if (kind == kHintedSlice) {
+      kind = kHintedAround;
+    } else if (kind == kHintedAround) {
+      kind = hasSlices ? kSlices : kAround;
+    } else if (kind == kSlices) {
+      if (++probe >= probes) {
+        probe = 0;
+        nearDepth *= set.depthRatio;
+        if (++slice >= int(set.slices)) kind = kAround;
+      }
+    } else {
+      t *= 2;
+      if (t > 8 * reach) kind = kEnd;
+    }
   }
-  return found;
-}
-
-uint faceToward(vec3 direction) {
-  const vec3 size = abs(direction);
-  if (size.x >= size.y && size.x >= size.z) return direction.x > 0 ? 0u : 1u;
-  if (size.y >= size.z) return direction.y > 0 ? 2u : 3u;
-  return direction.z > 0 ? 4u : 5u;
-}
-
-// In the images of receivers around `center`: the nearest that is found from places farther and farther along
-// the ray.
-FoundReceiver findAround(vec3 origin, vec3 direction, vec3 center, float reach, utexture2DArray texels,
-                         texture2DArray depths) {
-  FoundReceiver found;
-  found.distance = -1;
-  const float nearest = max(0.5 * distance(origin, center), 1e-3 * reach);
-  for (float t = nearest; t < 8 * reach; t *= 2) {
-    const vec3 point = origin + t * direction;
-    const uint face = faceToward(point - center);
-    const FoundReceiver here =
-        findNear(origin, direction, t, 0, 4 * reach, faceOfCube(center, face), int(face), texels, depths);
-    if (here.distance >= 0 && (found.distance < 0 || here.distance < found.distance)) found = here;
-    if (found.distance >= 0 && found.distance < 2 * t) return found;
-  }
-  return found;
+  return kNothing;
 }

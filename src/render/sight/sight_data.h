@@ -14,6 +14,8 @@ struct SightVertex {
   vec3 exit;       // m
   vec3 direction;  // unit
   vec3 transmittance;
+  float reach;           // m from `exit` to the receiver that is met, or kNoReach
+  float reflectedReach;  // the same from `position`, for what is reflected there
 };
 
 // A square pyramid of sight.
@@ -35,8 +37,31 @@ struct SliceSet {
   uint occupied;  // bit i: there may be a receiver in slice i
 };
 
+// Layers of the images of receivers: slices, then the faces of a cube around the caster, which take up as
+// many texels along a side.
+SHARED_CONSTANT uint kMostSlices = 16u;
+SHARED_CONSTANT uint kSurroundingSize = 256u;
+
+// `reach` of a vertex from where no receiver is met.
+SHARED_CONSTANT float kNoReach = -1.0f;
+
 // Layers overlap by this part of their depth, so that a surface has no seam where it goes through a plane.
 SHARED_CONSTANT float kSliceOverlap = 0.15f;
+
+// Between which depths (m along axisW) slice `i` holds receivers, if its first plane is at `nearDepth`.
+SHARED_FUNCTION vec2 depthsOfSlice(SliceSet set, float nearDepth) {
+  return vec2(nearDepth * (1.0f - kSliceOverlap), nearDepth * set.depthRatio * (1.0f + kSliceOverlap));
+}
+
+// Between which depths the images around a caster hold receivers that are no farther than `reach` (m).
+SHARED_FUNCTION vec2 depthsAround(float reach) {
+  return vec2(1e-4f * reach, 1.01f * reach);
+}
+
+// Depth images are reversed: 1 at the nearer depth, 0 at the farther, where there is nothing.
+SHARED_FUNCTION float depthFromImage(float value, vec2 depths) {
+  return depths.x * depths.y / (value * (depths.y - depths.x) + depths.x);
+}
 
 // In the images of receivers around a caster: the frame of a face of the cube, as the axes of the world.
 // Faces look along +x, -x, +y, -y, +z, -z.
@@ -57,9 +82,9 @@ struct SliceConstants {
   BUFFER_ADDRESS(SceneVertices) vertices;
   BUFFER_ADDRESS(SceneObjects) objects;
   SightFrame frame;
-  float nearDepth;  // m along axisW
-  float farDepth;
-  vec3 color;  // reflectance
+  vec2 depths;  // m along axisW
+  float part;   // of the image's width and height, from its first texel, that is drawn to
+  vec3 color;   // reflectance
   uint object;
   uint material;
 };
@@ -77,25 +102,33 @@ layout(buffer_reference, scalar) readonly buffer SightCamera {
 
 SHARED_BEGIN
 
-struct SightConstants {
+// Draws a caster's sight.
+struct CasterConstants {
   BUFFER_ADDRESS(SightVertices) vertices;
   BUFFER_ADDRESS(SightCamera) camera;
-  vec3 eye;   // m
-  float ior;  // of a dielectric, in the middle channel
-  SliceSet slices;
-  vec3 center;  // m, of the caster: the surroundings are seen from there
-  float reach;  // m: as far from the center as a receiver may be
+  uint number;  // of the caster, from 1
   uint marks;   // kSight...
 };
 
+// Looks for where a caster's sight ends.
+struct SightConstants {
+  SliceSet slices;
+  vec3 center;  // m, of the caster: the surroundings are seen from there
+  float reach;  // m: as far from the center as a receiver may be
+  vec3 eye;     // m
+  float ior;    // of a dielectric, in the middle channel
+  uint number;  // of the caster, from 1
+  uint isThinWalled;
+};
+
+// What the transmittance of a pixel is marked with.
 SHARED_CONSTANT uint kSightCaster = 1u;
 SHARED_CONSTANT uint kSightDisperses = 2u;
-SHARED_CONSTANT uint kSightThinWalled = 4u;
 
 SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(nephroid::SightVertex) == 60 && sizeof(nephroid::SliceConstants) <= 128 &&
+static_assert(sizeof(nephroid::SightVertex) == 68 && sizeof(nephroid::SliceConstants) <= 128 &&
               sizeof(nephroid::SightConstants) <= 128);
 #endif
 

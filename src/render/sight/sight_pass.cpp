@@ -2,44 +2,40 @@
 
 #include <algorithm>
 
-#include "shaders/nearest_caster_frag.h"
-#include "shaders/reflection_frag.h"
-#include "shaders/sight_frag.h"
-#include "shaders/sight_vert.h"
+#include "shaders/caster_frag.h"
+#include "shaders/caster_vert.h"
+#include "shaders/reflected_frag.h"
+#include "shaders/seen_frag.h"
 #include "shaders/slice_frag.h"
 #include "shaders/slice_vert.h"
+#include "shaders/whole_picture_vert.h"
 
 namespace nephroid {
 namespace {
 
 constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
-constexpr VkFormat kTexel = VK_FORMAT_R32G32B32A32_UINT;
+constexpr VkFormat kNormals = VK_FORMAT_R32_UINT;
+constexpr VkFormat kAlbedos = VK_FORMAT_R32G32_UINT;
 constexpr uint32_t kFaces = 6;
 
-// Draws where the depth pass found the caster nearest; channels that are cut differently differ in depth by
-// rounding, which the bias makes up for.
-gpu::RasterState overDepth(std::size_t targets) {
-  gpu::RasterState state;
-  state.colors.assign(targets, {kFloats});
+gpu::Program casterProgram(gpu::Device& device, const char* name, const gpu::RasterState& depth) {
+  gpu::RasterState state = depth;
+  state.colors.assign(5, {kFloats});
   state.depthFormat = kDepth;
-  state.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-  state.depthWrite = false;
-  state.depthBiasConstant = 32;
-  return state;
+  return gpu::createRasterProgram(device, name, shaders::caster_vert, shaders::caster_frag, state);
 }
 
-gpu::RasterState intoDepth() {
-  gpu::RasterState state;
-  state.depthFormat = kDepth;
-  state.depthCompare = VK_COMPARE_OP_GREATER;
-  return state;
+gpu::Program lookingProgram(gpu::Device& device, const char* name, std::span<const uint32_t> fragment) {
+  return gpu::createRasterProgram(device, name, shaders::whole_picture_vert, fragment,
+                                  {.colors = {{kFloats}, {kFloats}, {kFloats}}});
 }
 
 gpu::Program sliceProgram(gpu::Device& device, const char* name, uint32_t hasTexture) {
   gpu::RasterState state;
-  state.colors = {{kTexel}};
+  state.colors = {{kNormals}, {kAlbedos}};
   state.depthFormat = kDepth;
+  state.depthCompare = VK_COMPARE_OP_GREATER;
   return gpu::createRasterProgram(device, name, shaders::slice_vert, shaders::slice_frag, state,
                                   {{0, hasTexture}});
 }
@@ -64,13 +60,13 @@ void ensure(gpu::Device& device, gpu::Buffer& buffer, const char* name, std::siz
 SightPass::SightPass(gpu::Device& device, const SightSettings& settings)
     : device_(device),
       settings_(settings),
-      depthProgram_(gpu::createRasterProgram(device, "casters' depth", shaders::sight_vert, {}, intoDepth())),
-      sightProgram_(
-          gpu::createRasterProgram(device, "sight", shaders::sight_vert, shaders::sight_frag, overDepth(4))),
-      reflectionProgram_(gpu::createRasterProgram(device, "reflection", shaders::sight_vert,
-                                                  shaders::reflection_frag, overDepth(3))),
-      normalProgram_(gpu::createRasterProgram(device, "nearest caster", shaders::sight_vert,
-                                              shaders::nearest_caster_frag, overDepth(1))),
+      casterProgram_(casterProgram(device, "caster", {.depthCompare = VK_COMPARE_OP_GREATER})),
+      // Channels that are cut differently differ in depth by rounding, which the bias makes up for.
+      channelProgram_(casterProgram(
+          device, "caster in a channel",
+          {.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL, .depthWrite = false, .depthBiasConstant = 32})),
+      seenProgram_(lookingProgram(device, "seen by way of a caster", shaders::seen_frag)),
+      reflectedProgram_(lookingProgram(device, "reflected by a caster", shaders::reflected_frag)),
       sliceProgram_(sliceProgram(device, "slice", VK_FALSE)),
       texturedSliceProgram_(sliceProgram(device, "textured slice", VK_TRUE)) {}
 
@@ -102,6 +98,7 @@ void SightPass::update(SceneTransport& transport, const View& view, uvec2 pictur
     if (region.size.x > 0) add(transport, view, i, extents[object.mesh], region, media);
   }
   upload(view);
+  ensureImages(pictureSize);
 }
 
 void SightPass::add(SceneTransport& transport, const View& view, uint32_t index, const MeshExtent& extent,
@@ -121,15 +118,16 @@ void SightPass::add(SceneTransport& transport, const View& view, uint32_t index,
   for (const ReceiverBounds& receiver : receivers_)
     for (const vec3 corner : receiver.corners)
       constants.reach = std::max(constants.reach, distance(corner, constants.center));
-  constants.marks = kSightCaster | (caster.disperses ? kSightDisperses : 0u) |
-                    (material.thinWalled ? kSightThinWalled : 0u);
-  for (uint32_t channel = 0; channel < (caster.disperses ? 3u : 1u); ++channel) {
-    meshes_.push_back(
-        sightMesh(scene, transport.source(), sightQuery(index, view.eye, channel, media), view.pixelAngle));
+  constants.number = uint32_t(casters_.size()) + 1;
+  constants.isThinWalled = material.thinWalled;
+  for (uint32_t channel = 0; channel < caster.channels(); ++channel) {
+    meshes_.push_back(sightMesh(scene, transport.source(), transport.rayScene(),
+                                sightQuery(index, view.eye, channel, media), view.pixelAngle));
     caster.ranges[channel].count = uint32_t(meshes_.back().indices.size());
     caster.slices[channel] =
         planSlices(meshes_.back(), constants.center, radius, receivers_, settings_.slices);
   }
+  constants.reach = std::max(constants.reach, 1e-6f);
   region_ = unionOf(region_, region);
   disperses_ |= caster.disperses;
   reflects_ |= !caster.isMirror;
@@ -149,7 +147,7 @@ void SightPass::upload(const View& view) {
   camera_.write(std::span<const mat4>(&view.worldToClip, 1));
   std::size_t vertex = 0, index = 0, next = 0;
   for (SeenCaster& caster : casters_)
-    for (uint32_t channel = 0; channel < (caster.disperses ? 3u : 1u); ++channel) {
+    for (uint32_t channel = 0; channel < caster.channels(); ++channel) {
       const SightMesh& mesh = meshes_[next++];
       vertices_.write(mesh.vertices, vertex * sizeof(SightVertex));
       indices_.write(mesh.indices, index * sizeof(uint32_t));
@@ -157,141 +155,137 @@ void SightPass::upload(const View& view) {
       caster.ranges[channel].vertexOffset = int32_t(vertex);
       vertex += mesh.vertices.size();
       index += mesh.indices.size();
-      caster.constants.vertices = vertices_.address();
-      caster.constants.camera = camera_.address();
     }
-  if (slices_) return;
-  const auto create = [&](const char* name, VkFormat format, uint32_t size, uint32_t layers) {
-    return gpu::createImage(device_, name,
-                            {.format = format, .width = size, .height = size, .layers = layers});
-  };
-  const uint32_t layers = settings_.slices > 0 ? settings_.slices : kMostSlices;
-  slices_ = create("sliced object images", kTexel, settings_.sliceSize, layers);
-  sliceDepths_ = create("depths of sliced object images", kDepth, settings_.sliceSize, layers);
-  surroundings_ = create("surroundings", kTexel, settings_.surroundingSize, kFaces);
-  surroundingDepths_ = create("depths of surroundings", kDepth, settings_.surroundingSize, kFaces);
 }
 
-void SightPass::drawDepth(gpu::CommandList& commands, const FrameImages& images) {
-  commands.render(
-      {.colors = {}, .depth = gpu::DepthAttachment{&images.depth, 0, std::nullopt}, .region = region_}, [&] {
-        for (const SeenCaster& caster : casters_)
-          if (caster.ranges[0].count > 0)
-            commands.drawIndexed(depthProgram_, indices_, caster.ranges[0], 1, caster.constants);
-      });
+void SightPass::ensureImages(uvec2 pictureSize) {
+  if (casters_.empty() || receiverImages_.depths) return;
+  const auto picture = [&](const char* name) {
+    return gpu::createImage(device_, name,
+                            {.format = kFloats, .width = pictureSize.x, .height = pictureSize.y});
+  };
+  position_ = picture("casters' positions");
+  exit_ = picture("where sight leaves casters");
+  direction_ = picture("directions of sight");
+  const auto create = [&](const char* name, VkFormat format) {
+    return gpu::createImage(device_, name,
+                            {.format = format,
+                             .width = settings_.sliceSize,
+                             .height = settings_.sliceSize,
+                             .layers = kMostSlices + kFaces});
+  };
+  receiverImages_ = {create("receivers' depths", kDepth), create("receivers' normals", kNormals),
+                     create("receivers' albedos", kAlbedos)};
+}
+
+// Of the casters given, in one channel.
+void SightPass::drawCasters(gpu::CommandList& commands, std::span<const SeenCaster> casters, uint32_t channel,
+                            const FrameImages& images) {
+  const gpu::Image& transmittance =
+      channel == 0 ? images.seen.transmittance : images.dispersed[channel - 1].transmittance;
+  commands.render({.colors = {{&position_, 0, std::nullopt},
+                              {&images.casterNormal, 0, std::nullopt},
+                              {&exit_, 0, std::nullopt},
+                              {&direction_, 0, std::nullopt},
+                              {&transmittance, 0, std::nullopt}},
+                   .depth = gpu::DepthAttachment{&images.depth, 0, std::nullopt},
+                   .region = region_},
+                  [&] {
+                    for (const SeenCaster& caster : casters)
+                      if (caster.ranges[channel].count > 0)
+                        commands.drawIndexed(
+                            channel == 0 ? casterProgram_ : channelProgram_, indices_, caster.ranges[channel],
+                            1,
+                            CasterConstants{vertices_.address(), camera_.address(), caster.constants.number,
+                                            kSightCaster | (caster.disperses ? kSightDisperses : 0u)});
+                  });
 }
 
 void SightPass::drawReceivers(gpu::CommandList& commands, const GpuScene& gpuScene, const SightFrame& frame,
-                              vec2 depths, const gpu::Image& texels, const gpu::Image& texelDepths,
-                              uint32_t layer) {
+                              vec2 depths, uint32_t layer, uint32_t size) {
+  const ReceiverImages& images = receiverImages_;
+  const float part = float(size) / float(settings_.sliceSize);
   // Stale texels stay where the depth says that nothing is.
-  commands.render(
-      {.colors = {{&texels, layer, std::nullopt}}, .depth = gpu::DepthAttachment{&texelDepths, layer, 1.0f}},
-      [&] {
-        for (const ReceiverBounds& receiver : receivers_) {
-          if (!isSeen(frame, depths, receiver)) continue;
-          const SceneDraw& draw = gpuScene.draws()[receiver.object];
-          commands.drawIndexed(isTextured_[receiver.object] ? texturedSliceProgram_ : sliceProgram_,
-                               gpuScene.indices(), draw.range, 1,
-                               SliceConstants{gpuScene.vertices(), gpuScene.objects(), frame, depths.x,
-                                              depths.y, receiverColors_[receiver.object], receiver.object,
-                                              receiverMaterials_[receiver.object]},
-                               {{*draw.colorTexture, gpuScene.textureSampler()}});
-        }
-      });
+  commands.render({.colors = {{&images.normals, layer, std::nullopt}, {&images.albedos, layer, std::nullopt}},
+                   .depth = gpu::DepthAttachment{&images.depths, layer, 0.0f},
+                   .region = gpu::Region{{0, 0}, uvec2(size)}},
+                  [&] {
+                    for (const ReceiverBounds& receiver : receivers_) {
+                      if (!isSeen(frame, depths, receiver)) continue;
+                      const SceneDraw& draw = gpuScene.draws()[receiver.object];
+                      commands.drawIndexed(
+                          isTextured_[receiver.object] ? texturedSliceProgram_ : sliceProgram_,
+                          gpuScene.indices(), draw.range, 1,
+                          SliceConstants{gpuScene.vertices(), gpuScene.objects(), frame, depths, part,
+                                         receiverColors_[receiver.object], receiver.object,
+                                         receiverMaterials_[receiver.object]},
+                          {{*draw.colorTexture, gpuScene.textureSampler()}});
+                    }
+                  });
 }
 
 void SightPass::drawSlices(gpu::CommandList& commands, const GpuScene& gpuScene, const SliceSet& set) {
   float depth = set.firstDepth;
   for (uint32_t i = 0; i < set.slices; ++i, depth *= set.depthRatio)
     if (set.occupied >> i & 1u)
-      drawReceivers(commands, gpuScene, set.frame,
-                    {depth * (1 - kSliceOverlap), depth * set.depthRatio * (1 + kSliceOverlap)}, slices_,
-                    sliceDepths_, i);
+      drawReceivers(commands, gpuScene, set.frame, depthsOfSlice(set, depth), i, settings_.sliceSize);
 }
 
 void SightPass::drawSurroundings(gpu::CommandList& commands, const GpuScene& gpuScene,
                                  const SeenCaster& caster) {
-  const float reach = std::max(caster.constants.reach, 1e-6f);
   for (uint32_t face = 0; face < kFaces; ++face)
     drawReceivers(commands, gpuScene, faceOfCube(caster.constants.center, face),
-                  {1e-4f * reach, 1.01f * reach}, surroundings_, surroundingDepths_, face);
+                  depthsAround(caster.constants.reach), kMostSlices + face, kSurroundingSize);
 }
 
-void SightPass::drawSeen(gpu::CommandList& commands, const SeenCaster& caster, uint32_t channel,
-                         const SeenImages& seen, const gpu::Image& depth) {
-  if (caster.ranges[channel].count == 0) return;
+void SightPass::look(gpu::CommandList& commands, const gpu::Program& program, const SeenCaster& caster,
+                     uint32_t channel, const gpu::Image& second, const SeenImages& seen) {
   SightConstants constants = caster.constants;
   constants.slices = caster.slices[channel];
   commands.render({.colors = {{&seen.position, 0, std::nullopt},
                               {&seen.normal, 0, std::nullopt},
-                              {&seen.albedo, 0, std::nullopt},
-                              {&seen.transmittance, 0, std::nullopt}},
-                   .depth = gpu::DepthAttachment{&depth, 0, std::nullopt},
-                   .region = caster.region},
-                  [&] {
-                    commands.drawIndexed(sightProgram_, indices_, caster.ranges[channel], 1, constants,
-                                         {slices_, sliceDepths_, surroundings_, surroundingDepths_});
-                  });
-}
-
-void SightPass::drawReflected(gpu::CommandList& commands, const SeenCaster& caster,
-                              const FrameImages& images) {
-  const SeenImages& seen = images.reflected;
-  if (caster.ranges[0].count == 0) return;
-  commands.render({.colors = {{&seen.position, 0, std::nullopt},
-                              {&seen.normal, 0, std::nullopt},
                               {&seen.albedo, 0, std::nullopt}},
-                   .depth = gpu::DepthAttachment{&images.depth, 0, std::nullopt},
                    .region = caster.region},
                   [&] {
-                    commands.drawIndexed(reflectionProgram_, indices_, caster.ranges[0], 1, caster.constants,
-                                         {surroundings_, surroundingDepths_});
+                    commands.draw(program, 3, 1, constants,
+                                  {position_, second, direction_, receiverImages_.depths,
+                                   receiverImages_.normals, receiverImages_.albedos});
                   });
 }
 
-void SightPass::clear(gpu::CommandList& commands, const SeenImages& seen) const {
-  commands.render({.colors = {{&seen.position, 0, vec4(0)},
-                              {&seen.normal, 0, vec4(0)},
-                              {&seen.albedo, 0, vec4(0)},
-                              {&seen.transmittance, 0, vec4(0)}},
-                   .region = region_},
-                  [] {});
+void SightPass::clear(gpu::CommandList& commands, std::vector<const gpu::Image*> images) const {
+  gpu::RenderTargets targets;
+  for (const gpu::Image* image : images) targets.colors.push_back({image, 0, vec4(0)});
+  targets.region = region_;
+  commands.render(targets, [] {});
 }
 
 void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images) {
   if (casters_.empty()) return;
   commands.pass("casters", [&] {
-    drawDepth(commands, images);
-    commands.render({.colors = {{&images.seen.transmittance, 0, vec4(0)}}, .region = region_}, [] {});
-    if (reflects_) clear(commands, images.reflected);
-    if (disperses_)
-      for (const SeenImages& seen : images.dispersed) clear(commands, seen);
+    clear(commands, {&position_, &images.casterNormal, &images.seen.transmittance});
+    for (const SeenImages* seen : {&images.reflected, &images.dispersed[0], &images.dispersed[1]})
+      if (seen->position)
+        clear(commands, {&seen->position, &seen->normal, &seen->albedo, &seen->transmittance});
+    commands.barrier();
+    drawCasters(commands, casters_, 0, images);
   });
   for (const SeenCaster& caster : casters_) {
     commands.pass("surroundings", [&] { drawSurroundings(commands, gpuScene, caster); });
-    for (uint32_t channel = 0; channel < (caster.disperses ? 3u : 1u); ++channel) {
+    for (uint32_t channel = 0; channel < caster.channels(); ++channel) {
+      if (channel > 0)
+        commands.pass("casters", [&] { drawCasters(commands, {&caster, 1}, channel, images); });
       commands.pass("sliced object images", [&] { drawSlices(commands, gpuScene, caster.slices[channel]); });
       commands.pass("seen through casters", [&] {
-        drawSeen(commands, caster, channel, channel == 0 ? images.seen : images.dispersed[channel - 1],
-                 images.depth);
+        look(commands, seenProgram_, caster, channel, exit_,
+             channel == 0 ? images.seen : images.dispersed[channel - 1]);
+      });
+      if (channel > 0 || caster.isMirror) continue;
+      commands.pass("reflected by casters", [&] {
+        look(commands, reflectedProgram_, caster, channel, images.casterNormal, images.reflected);
       });
     }
-    if (!caster.isMirror)
-      commands.pass("reflected by casters", [&] { drawReflected(commands, caster, images); });
   }
-}
-
-void SightPass::recordNormals(gpu::CommandList& commands, const FrameImages& images) {
-  if (casters_.empty()) return;
-  commands.render({.colors = {{&images.casterNormal, 0, vec4(0)}},
-                   .depth = gpu::DepthAttachment{&images.depth, 0, std::nullopt},
-                   .region = region_},
-                  [&] {
-                    for (const SeenCaster& caster : casters_)
-                      if (caster.ranges[0].count > 0)
-                        commands.drawIndexed(normalProgram_, indices_, caster.ranges[0], 1, caster.constants);
-                  });
 }
 
 }  // namespace nephroid

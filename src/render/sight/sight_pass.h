@@ -6,7 +6,7 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "gpu/program.h"
@@ -22,8 +22,14 @@ namespace nephroid {
 
 struct SightSettings {
   uint32_t slices = 0;  // sliced object images of a caster; 0: as many as the depth of the receivers asks for
-  uint32_t sliceSize = 512;        // texels along a side of one
-  uint32_t surroundingSize = 256;  // texels along a side of the six images around a caster
+  uint32_t sliceSize = 512;  // texels along a side of one, at least kSurroundingSize
+};
+
+// Receivers as frames of sight see them, one a layer.
+struct ReceiverImages {
+  gpu::Image depths;   // d32, reversed
+  gpu::Image normals;  // r32ui: octahedral
+  gpu::Image albedos;  // rg32ui: packSliceAlbedo
 };
 
 // One frame is update, then record.
@@ -46,9 +52,6 @@ class SightPass {
   // own.
   void record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images);
 
-  // The normals of the nearest casters; after `record`.
-  void recordNormals(gpu::CommandList& commands, const FrameImages& images);
-
  private:
   // A caster that is in the picture.
   struct SeenCaster {
@@ -58,26 +61,31 @@ class SightPass {
     gpu::Region region{};
     bool isMirror = false;
     bool disperses = false;
+
+    uint32_t channels() const { return disperses ? 3 : 1; }
   };
 
   void add(SceneTransport& transport, const View& view, uint32_t object, const MeshExtent& extent,
            const gpu::Region& region, const MediumStack& media);
   void upload(const View& view);
-  void clear(gpu::CommandList& commands, const SeenImages& seen) const;
-  void drawDepth(gpu::CommandList& commands, const FrameImages& images);
+  void ensureImages(uvec2 pictureSize);
+  void clear(gpu::CommandList& commands, std::vector<const gpu::Image*> images) const;
+  void drawCasters(gpu::CommandList& commands, std::span<const SeenCaster> casters, uint32_t channel,
+                   const FrameImages& images);
   void drawReceivers(gpu::CommandList& commands, const GpuScene& gpuScene, const SightFrame& frame,
-                     vec2 depths, const gpu::Image& texels, const gpu::Image& textureDepths, uint32_t layer);
+                     vec2 depths, uint32_t layer, uint32_t size);
   void drawSlices(gpu::CommandList& commands, const GpuScene& gpuScene, const SliceSet& set);
   void drawSurroundings(gpu::CommandList& commands, const GpuScene& gpuScene, const SeenCaster& caster);
-  void drawSeen(gpu::CommandList& commands, const SeenCaster& caster, uint32_t channel,
-                const SeenImages& seen, const gpu::Image& depth);
-  void drawReflected(gpu::CommandList& commands, const SeenCaster& caster, const FrameImages& images);
+  // `second`: the image that the program takes besides those of positions and directions.
+  void look(gpu::CommandList& commands, const gpu::Program& program, const SeenCaster& caster,
+            uint32_t channel, const gpu::Image& second, const SeenImages& seen);
 
   gpu::Device& device_;
   SightSettings settings_;
-  gpu::Program depthProgram_, sightProgram_, reflectionProgram_, normalProgram_;
+  gpu::Program casterProgram_, channelProgram_, seenProgram_, reflectedProgram_;
   gpu::Program sliceProgram_, texturedSliceProgram_;
-  gpu::Image slices_, sliceDepths_, surroundings_, surroundingDepths_;  // of one caster after the other
+  ReceiverImages receiverImages_;           // of one caster after the other
+  gpu::Image position_, exit_, direction_;  // of the picture's size, as caster.frag writes them
   gpu::Buffer vertices_, indices_, camera_;
 
   // Of the frame being made.

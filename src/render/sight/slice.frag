@@ -1,4 +1,4 @@
-// A texel of a sliced object image: normal, reflectance and material, and depth.
+// A texel of a sliced object image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "render/sight/sight_data.h"
@@ -10,11 +10,12 @@ layout(push_constant, scalar) uniform Constants { SliceConstants constants; };
 layout(set = 0, binding = 0) uniform sampler2D colorTexture;
 layout(location = 0) in vec3 normal;
 layout(location = 1) in vec2 texcoord;
-layout(location = 2) in float depth;
-layout(location = 0) out uvec4 texel;
+layout(location = 0) out uint normalWord;
+layout(location = 1) out uvec2 albedoWords;
 
 void main() {
   vec3 albedo = constants.color;
   if (kHasTexture) albedo *= texture(colorTexture, texcoord).rgb;
-  texel = packSliceTexel(normalize(normal), albedo, constants.material, depth);
+  normalWord = packUnorm2x16(octahedralFromDirection(normalize(normal)));
+  albedoWords = packSliceAlbedo(albedo, constants.material);
 }

@@ -6,7 +6,6 @@
 layout(push_constant, scalar) uniform Constants { SliceConstants constants; };
 layout(location = 0) out vec3 normal;
 layout(location = 1) out vec2 texcoord;
-layout(location = 2) out float depth;  // m along axisW
 
 void main() {
   const SceneVertex vertex = constants.vertices.vertex[gl_VertexIndex];
@@ -15,8 +14,9 @@ void main() {
   const vec3 fromApex = worldPoint(object, vertex.position) - frame.apex;
   normal = worldVector(object, vertex.normal);
   texcoord = vertex.texcoord;
-  depth = dot(fromApex, frame.axisW);
-  const float range = constants.farDepth - constants.nearDepth;
-  gl_Position = vec4(frame.scale * dot(fromApex, frame.axisU), frame.scale * dot(fromApex, frame.axisV),
-                     constants.farDepth * (depth - constants.nearDepth) / range, depth);
+  const float depth = dot(fromApex, frame.axisW);
+  const vec2 depths = constants.depths;
+  const vec2 place = frame.scale * vec2(dot(fromApex, frame.axisU), dot(fromApex, frame.axisV));
+  gl_Position = vec4(constants.part * (place + depth) - depth,
+                     depths.x * (depths.y - depth) / (depths.y - depths.x), depth);
 }

@@ -7,8 +7,8 @@ namespace nephroid {
 namespace {
 
 // Between planes the depth grows by no more than this factor when their number is not given.
-constexpr float kDepthRatio = 1.6f;
-constexpr uint32_t kMostAutomaticSlices = 8;
+constexpr float kDepthRatio = 2;
+constexpr uint32_t kMostAutomaticSlices = 6;
 // Tangents of half the opening: a wider view wastes texels on the rim of the caster, where it reflects more
 // than it lets through.
 constexpr float kLeastTangent = 0.2f;

@@ -15,8 +15,6 @@ struct ReceiverBounds {
   std::array<vec3, 8> corners{};
 };
 
-inline constexpr uint32_t kMostSlices = 16;
-
 // Sample planes across the mean direction in which sight leaves the caster, from where it leaves it to the
 // farthest receiver, wide enough for all but the last few per cent of it. `count` of 0: as many as the depth
 // of the receivers asks for. Of no slices when nothing is to be seen.

@@ -1,5 +1,6 @@
 #include "render/sight/view_rays.h"
 
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <optional>
 
 #include "optics/curved_triangle.h"
+#include "optics/refraction.h"
 
 namespace nephroid {
 namespace {
@@ -27,8 +29,14 @@ struct Corner {
 using Triangle = std::array<Corner, 3>;
 
 SightVertex vertexOf(const Corner& corner) {
-  return {corner.position, corner.normal, corner.ray.position, corner.ray.direction,
-          corner.ray.transmittance};
+  const float reach = corner.ray.reach < kUnboundedReach ? corner.ray.reach : kNoReach;
+  return {corner.position,
+          corner.normal,
+          corner.ray.position,
+          corner.ray.direction,
+          corner.ray.transmittance,
+          reach,
+          -1};
 }
 
 bool isLost(const OutgoingRay& ray) {
@@ -206,6 +214,30 @@ class Collector {
 
 }  // namespace
 
+namespace {
+
+// Where what is reflected at each vertex that is seen comes from.
+void findReflected(const Scene& scene, const RayScene& rays, vec3 eye, SightMesh& mesh) {
+  std::vector<bool> isUsed(mesh.vertices.size(), false);
+  for (const uint32_t i : mesh.indices) isUsed[i] = true;
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  oneapi::tbb::parallel_for(Range(0, mesh.vertices.size(), kBlock), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      if (!isUsed[i]) continue;
+      SightVertex& vertex = mesh.vertices[i];
+      const vec3 incident = normalize(vertex.position - eye);
+      const vec3 normal = dot(incident, vertex.normal) < 0 ? vertex.normal : -vertex.normal;
+      Hit hit;
+      if (rays.intersect(
+              {vertex.position, reflectDirection(incident, normal), rays.selfIntersectionDistance()}, hit) &&
+          !scene.isCaster(scene.objects[hit.object]))
+        vertex.reflectedReach = hit.distance;
+    }
+  });
+}
+
+}  // namespace
+
 TransportQuery sightQuery(uint32_t object, vec3 eye, uint32_t channel, const MediumStack& media) {
   TransportQuery query;
   query.object = object;
@@ -218,9 +250,12 @@ TransportQuery sightQuery(uint32_t object, vec3 eye, uint32_t channel, const Med
   return query;
 }
 
-SightMesh sightMesh(const Scene& scene, const TransportSource& source, const TransportQuery& query,
-                    float pixelAngle) {
-  return Collector(scene, source, query, pixelAngle).collect();
+SightMesh sightMesh(const Scene& scene, const TransportSource& source, const RayScene& rays,
+                    const TransportQuery& query, float pixelAngle) {
+  SightMesh mesh = Collector(scene, source, query, pixelAngle).collect();
+  if (scene.materialOf(scene.objects[query.object]).type == MaterialType::dielectric)
+    findReflected(scene, rays, query.emitter.position, mesh);
+  return mesh;
 }
 
 }  // namespace nephroid

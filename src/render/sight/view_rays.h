@@ -20,8 +20,8 @@ struct SightMesh {
 // A line of sight from `eye`, inside of `media`, that meets the object, in one colour channel.
 TransportQuery sightQuery(uint32_t object, vec3 eye, uint32_t channel, const MediumStack& media);
 
-// `pixelAngle`: radians between neighbouring pixels.
-SightMesh sightMesh(const Scene& scene, const TransportSource& source, const TransportQuery& query,
-                    float pixelAngle);
+// `pixelAngle`: radians between neighbouring pixels. `rays`: of the scene.
+SightMesh sightMesh(const Scene& scene, const TransportSource& source, const RayScene& rays,
+                    const TransportQuery& query, float pixelAngle);
 
 }  // namespace nephroid

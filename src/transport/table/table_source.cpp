@@ -1,5 +1,6 @@
 #include "transport/table/table_source.h"
 
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 namespace nephroid {
@@ -15,7 +16,7 @@ TableSource::TableSource(const Scene& sceneOfTables, std::vector<std::optional<T
 
 bool TableSource::isTabulated(const TransportQuery& query) const {
   return tables[query.object] && (query.paths == Paths::transmission || query.isSight) &&
-         query.media.size == 0;
+         query.reflections == 0 && query.media.size == 0;
 }
 
 void TableSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const {
@@ -23,12 +24,18 @@ void TableSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay>
   const Object& object = scene.objects[query.object];
   tableRays(*tables[query.object], scene.meshOf(object), object.placement, scene.materialOf(object),
             query.emitter, query.channel, rays);
-  if (query.isSight) traceLost(query, rays);
+  if (query.isSight) completeSight(query, rays);
 }
 
-void TableSource::traceLost(const TransportQuery& query, std::span<OutgoingRay> rays) const {
-  oneapi::tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
-    if (rays[i].flags & kRayLost) rays[i] = traced.vertexRay(query, uint32_t(i), 0);
+// Sight is followed where light is lost, and to what it meets.
+void TableSource::completeSight(const TransportQuery& query, std::span<OutgoingRay> rays) const {
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  oneapi::tbb::parallel_for(Range(0, rays.size(), 64), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      if (rays[i].flags & kRayLost)
+        rays[i] = traced.vertexRay(query, uint32_t(i), 0);
+      else
+        traced.goOn(query, rays[i]);
   });
 }
 

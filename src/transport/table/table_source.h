@@ -29,7 +29,7 @@ class TableSource : public TransportSource {
 
  private:
   bool isTabulated(const TransportQuery& query) const;
-  void traceLost(const TransportQuery& query, std::span<OutgoingRay> rays) const;
+  void completeSight(const TransportQuery& query, std::span<OutgoingRay> rays) const;
 
   const Scene& scene;
   std::vector<std::optional<TransportTable>> tables;

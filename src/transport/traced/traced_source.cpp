@@ -68,6 +68,31 @@ OutgoingRay TracedSource::vertexRay(const TransportQuery& query, uint32_t vertex
   return rayAt(query, {position, position, normal, normal, patch});
 }
 
+void TracedSource::goOn(const TransportQuery& query, OutgoingRay& ray) const {
+  const RayScene& rays = follower.rayScene();
+  Hit hit;
+  Ray next{ray.position, ray.direction, rays.selfIntersectionDistance()};
+  // What a source rounded may lie inside of the caster that it left.
+  do {
+    if (!rays.intersect(next, hit)) return;
+    next.nearDistance = hit.distance + rays.selfIntersectionDistance();
+  } while (hit.object == query.object);
+  if (!scene.isCaster(scene.objects[hit.object])) {
+    ray.reach = hit.distance;
+    return;
+  }
+  const OutgoingRay after = follower.follow(
+      {hit.position, hit.flatPosition, hit.normal, hit.geometricNormal, hit.patch}, hit.object, ray.direction,
+      query.media, {query.channel, query.paths, query.reflections});
+  ray.position = after.position;
+  ray.direction = after.direction;
+  ray.pathLength += after.pathLength;
+  ray.transmittance *= after.transmittance;
+  ray.flags |= after.flags;
+  ray.signature = ray.signature * 16777619u ^ after.signature;
+  ray.reach = after.reach;
+}
+
 void TracedSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const {
   const Object& object = scene.objects[query.object];
   const Mesh& mesh = scene.meshOf(object);

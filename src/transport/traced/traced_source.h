@@ -23,6 +23,10 @@ class TracedSource : public TransportSource {
   // The ray at one vertex of the caster's mesh.
   OutgoingRay vertexRay(const TransportQuery& query, uint32_t vertex, uint32_t patch) const;
 
+  // Follows a ray of sight on from where it left the query's caster, by whatever it meets next: for those
+  // that come from a source that knows the caster alone.
+  void goOn(const TransportQuery& query, OutgoingRay& ray) const;
+
   // The media around an emitter, for its queries.
   MediumStack mediaAround(const Emitter& emitter) const;
 

@@ -1,0 +1,32 @@
+// The receiver that is seen through glass, or in a mirror, in place of the one behind it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "render/sight/sight_data.h"
+
+#include "render/sight/find_receiver.glsl.h"
+
+layout(push_constant, scalar) uniform Constants { SightConstants constants; };
+layout(set = 0, binding = 0) uniform texture2D casterPosition;
+layout(set = 0, binding = 1) uniform texture2D casterExit;
+layout(set = 0, binding = 2) uniform texture2D casterDirection;
+layout(set = 0, binding = 3) uniform texture2DArray depths;
+layout(set = 0, binding = 4) uniform utexture2DArray normals;
+layout(set = 0, binding = 5) uniform utexture2DArray albedos;
+layout(location = 0) out vec4 receiverPosition;
+layout(location = 1) out vec4 receiverNormal;
+layout(location = 2) out vec4 receiverAlbedo;
+
+void main() {
+  const ivec2 pixel = ivec2(gl_FragCoord.xy);
+  if (texelFetch(casterPosition, pixel, 0).a != float(constants.number)) discard;
+  const vec4 exit = texelFetch(casterExit, pixel, 0);
+  const SightRay ray = SightRay(exit.xyz, normalize(texelFetch(casterDirection, pixel, 0).xyz));
+  receiverPosition = receiverNormal = receiverAlbedo = vec4(0);
+  const FoundReceiver found =
+      findReceiver(ray, exit.a, constants.slices, constants.center, constants.reach, depths, normals);
+  if (found.distance < 0) return;
+  receiverPosition = vec4(ray.origin + found.distance * ray.direction, 1);
+  receiverNormal = vec4(found.normal, 0);
+  receiverAlbedo = sliceAlbedo(texelFetch(albedos, found.texel, 0).rg);
+}
