@@ -87,7 +87,7 @@ FoundReceiver findReceiver(SightRay ray, float hint, SliceSet set, vec3 center, 
   const bool hasSlices = set.slices > 0 && approach >= 0.05;
   int kind = hint > 0 ? (hasSlices ? kHintedSlice : kHintedAround) : (hasSlices ? kSlices : kAround);
   // Where rays at all corners of the caster's triangle met nothing, nothing is looked for.
-  if (hint <= kNoReach) kind = kEnd;
+  if (hint <= 0.999 * kNoReach) kind = kEnd;
   int slice = 0, probe = 0;
   float nearDepth = set.firstDepth;
   float t = max(0.5 * distance(ray.origin, center), 1e-3 * reach);

@@ -21,7 +21,7 @@ layout(location = 2) out vec4 receiverAlbedo;
 void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const vec4 position = texelFetch(casterPosition, pixel, 0);
-  if (position.a != float(constants.number)) discard;
+  const bool isMine = position.a == float(constants.number);
   const vec4 normal = texelFetch(casterNormal, pixel, 0);
   const vec3 facing = normalize(normal.xyz);
   const vec3 incident = normalize(position.xyz - constants.eye);
@@ -30,8 +30,10 @@ void main() {
   receiverPosition = receiverAlbedo = vec4(0);
   receiverNormal = vec4(vec3(0), reflectance);
   const SightRay ray = SightRay(position.xyz, reflectDirection(incident, facing));
-  const FoundReceiver found = findReceiver(ray, texelFetch(casterDirection, pixel, 0).a, constants.slices, constants.center,
-                                           constants.reach, depths, normals);
+  const float hint = isMine ? texelFetch(casterDirection, pixel, 0).a : kNoReach;
+  const FoundReceiver found =
+      findReceiver(ray, hint, constants.slices, constants.center, constants.reach, depths, normals);
+  if (!isMine) discard;  // not before: software devices go on with the search
   if (found.distance < 0) return;
   receiverPosition = vec4(ray.origin + found.distance * ray.direction, 1);
   receiverNormal.xyz = found.normal;

@@ -19,12 +19,13 @@ layout(location = 2) out vec4 receiverAlbedo;
 
 void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
-  if (texelFetch(casterPosition, pixel, 0).a != float(constants.number)) discard;
+  const bool isMine = texelFetch(casterPosition, pixel, 0).a == float(constants.number);
   const vec4 exit = texelFetch(casterExit, pixel, 0);
   const SightRay ray = SightRay(exit.xyz, normalize(texelFetch(casterDirection, pixel, 0).xyz));
   receiverPosition = receiverNormal = receiverAlbedo = vec4(0);
   const FoundReceiver found =
-      findReceiver(ray, exit.a, constants.slices, constants.center, constants.reach, depths, normals);
+      findReceiver(ray, isMine ? exit.a : kNoReach, constants.slices, constants.center, constants.reach, depths, normals);
+  if (!isMine) discard;  // not before: software devices go on with the search
   if (found.distance < 0) return;
   receiverPosition = vec4(ray.origin + found.distance * ray.direction, 1);
   receiverNormal = vec4(found.normal, 0);

@@ -1,6 +1,7 @@
 #include "render/sight/sight_pass.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "shaders/caster_frag.h"
 #include "shaders/caster_vert.h"
@@ -183,11 +184,12 @@ void SightPass::drawCasters(gpu::CommandList& commands, std::span<const SeenCast
                             const FrameImages& images) {
   const gpu::Image& transmittance =
       channel == 0 ? images.seen.transmittance : images.dispersed[channel - 1].transmittance;
-  commands.render({.colors = {{&position_, 0, std::nullopt},
-                              {&images.casterNormal, 0, std::nullopt},
+  const std::optional<vec4> nothing = channel == 0 ? std::optional(vec4(0)) : std::nullopt;
+  commands.render({.colors = {{&position_, 0, nothing},
+                              {&images.casterNormal, 0, nothing},
                               {&exit_, 0, std::nullopt},
                               {&direction_, 0, std::nullopt},
-                              {&transmittance, 0, std::nullopt}},
+                              {&transmittance, 0, nothing}},
                    .depth = gpu::DepthAttachment{&images.depth, 0, std::nullopt},
                    .region = region_},
                   [&] {
@@ -238,38 +240,26 @@ void SightPass::drawSurroundings(gpu::CommandList& commands, const GpuScene& gpu
                   depthsAround(caster.constants.reach), kMostSlices + face, kSurroundingSize);
 }
 
+// The images that are looked into the first time in a frame hold nothing wherever casters may be.
 void SightPass::look(gpu::CommandList& commands, const gpu::Program& program, const SeenCaster& caster,
-                     uint32_t channel, const gpu::Image& second, const SeenImages& seen) {
+                     uint32_t channel, const gpu::Image& second, const SeenImages& seen, bool isFirst) {
   SightConstants constants = caster.constants;
   constants.slices = caster.slices[channel];
-  commands.render({.colors = {{&seen.position, 0, std::nullopt},
-                              {&seen.normal, 0, std::nullopt},
-                              {&seen.albedo, 0, std::nullopt}},
-                   .region = caster.region},
-                  [&] {
-                    commands.draw(program, 3, 1, constants,
-                                  {position_, second, direction_, receiverImages_.depths,
-                                   receiverImages_.normals, receiverImages_.albedos});
-                  });
-}
-
-void SightPass::clear(gpu::CommandList& commands, std::vector<const gpu::Image*> images) const {
-  gpu::RenderTargets targets;
-  for (const gpu::Image* image : images) targets.colors.push_back({image, 0, vec4(0)});
-  targets.region = region_;
-  commands.render(targets, [] {});
+  const std::optional<vec4> nothing = isFirst ? std::optional(vec4(0)) : std::nullopt;
+  commands.render(
+      {.colors = {{&seen.position, 0, nothing}, {&seen.normal, 0, nothing}, {&seen.albedo, 0, nothing}},
+       .region = isFirst ? region_ : caster.region},
+      [&] {
+        commands.draw(program, 3, 1, constants,
+                      {position_, second, direction_, receiverImages_.depths, receiverImages_.normals,
+                       receiverImages_.albedos});
+      });
 }
 
 void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images) {
   if (casters_.empty()) return;
-  commands.pass("casters", [&] {
-    clear(commands, {&position_, &images.casterNormal, &images.seen.transmittance});
-    for (const SeenImages* seen : {&images.reflected, &images.dispersed[0], &images.dispersed[1]})
-      if (seen->position)
-        clear(commands, {&seen->position, &seen->normal, &seen->albedo, &seen->transmittance});
-    commands.barrier();
-    drawCasters(commands, casters_, 0, images);
-  });
+  commands.pass("casters", [&] { drawCasters(commands, casters_, 0, images); });
+  bool isFirstReflected = true, isFirstDispersed = true;
   for (const SeenCaster& caster : casters_) {
     commands.pass("surroundings", [&] { drawSurroundings(commands, gpuScene, caster); });
     for (uint32_t channel = 0; channel < caster.channels(); ++channel) {
@@ -277,12 +267,16 @@ void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, con
         commands.pass("casters", [&] { drawCasters(commands, {&caster, 1}, channel, images); });
       commands.pass("sliced object images", [&] { drawSlices(commands, gpuScene, caster.slices[channel]); });
       commands.pass("seen through casters", [&] {
+        const bool isFirst = channel > 0 && isFirstDispersed;
         look(commands, seenProgram_, caster, channel, exit_,
-             channel == 0 ? images.seen : images.dispersed[channel - 1]);
+             channel == 0 ? images.seen : images.dispersed[channel - 1], isFirst);
+        if (channel == 2) isFirstDispersed = false;
       });
       if (channel > 0 || caster.isMirror) continue;
       commands.pass("reflected by casters", [&] {
-        look(commands, reflectedProgram_, caster, channel, images.casterNormal, images.reflected);
+        look(commands, reflectedProgram_, caster, channel, images.casterNormal, images.reflected,
+             isFirstReflected);
+        isFirstReflected = false;
       });
     }
   }

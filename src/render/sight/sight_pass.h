@@ -69,7 +69,6 @@ class SightPass {
            const gpu::Region& region, const MediumStack& media);
   void upload(const View& view);
   void ensureImages(uvec2 pictureSize);
-  void clear(gpu::CommandList& commands, std::vector<const gpu::Image*> images) const;
   void drawCasters(gpu::CommandList& commands, std::span<const SeenCaster> casters, uint32_t channel,
                    const FrameImages& images);
   void drawReceivers(gpu::CommandList& commands, const GpuScene& gpuScene, const SightFrame& frame,
@@ -78,7 +77,7 @@ class SightPass {
   void drawSurroundings(gpu::CommandList& commands, const GpuScene& gpuScene, const SeenCaster& caster);
   // `second`: the image that the program takes besides those of positions and directions.
   void look(gpu::CommandList& commands, const gpu::Program& program, const SeenCaster& caster,
-            uint32_t channel, const gpu::Image& second, const SeenImages& seen);
+            uint32_t channel, const gpu::Image& second, const SeenImages& seen, bool isFirst);
 
   gpu::Device& device_;
   SightSettings settings_;

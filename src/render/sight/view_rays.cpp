@@ -15,7 +15,7 @@ namespace nephroid {
 namespace {
 
 constexpr std::size_t kBlock = 256;         // triangles that one task looks at
-constexpr float kSmallestSide = 1.5f;       // pixels: shorter ones are not cut
+constexpr float kSmallestSide = 2.5f;       // pixels: shorter ones are not cut
 constexpr float kLongestStraightSide = 12;  // pixels: between nearer vertices rays are taken as they are
 constexpr uint32_t kMostCuts = 8;
 constexpr float kInset = 1e-3f;  // rays of a cut triangle start this part of the way toward its middle
@@ -182,19 +182,41 @@ class Collector {
     return facing * dot(across, query.emitter.position - a) > 0;
   }
 
+  static bool isSteady(const Triangle& t) {
+    return !isLost(t[0].ray) && !isLost(t[1].ray) && !isLost(t[2].ray) &&
+           t[0].ray.signature == t[1].ray.signature && t[0].ray.signature == t[2].ray.signature;
+  }
+
   bool isLong(const uvec3& t) const {
     const vec3 a = corners[t.x].position, b = corners[t.y].position, c = corners[t.z].position;
     const float longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
     return longest > kLongestStraightSide * pixelAngle * distance(a, query.emitter.position);
   }
 
+  bool facesAway(const Corner& corner) const {
+    return facing * dot(corner.position - query.emitter.position, corner.normal) >= 0;
+  }
+
+  // A corner past the rim of what is seen has no sight of its own; up to the rim that of the others will do.
+  Triangle upToRim(const uvec3& t) const {
+    Triangle triangle{corners[t.x], corners[t.y], corners[t.z]};
+    const auto seen = std::ranges::find_if_not(triangle, [&](const Corner& c) { return facesAway(c); });
+    if (seen == triangle.end()) return triangle;
+    const OutgoingRay ray = seen->ray;
+    for (Corner& corner : triangle)
+      if (facesAway(corner)) corner.ray = ray;
+    return triangle;
+  }
+
   void add(const uvec3& t, Block& block) const {
     if (!isSeen(t)) return;
-    const OutgoingRay &a = rays[t.x], &b = rays[t.y], &c = rays[t.z];
-    const bool goesOneWay =
-        !isLost(a) && !isLost(b) && !isLost(c) && a.signature == b.signature && a.signature == c.signature;
-    if (goesOneWay && !isLong(t)) {
+    if (!isLong(t) && isSteady({corners[t.x], corners[t.y], corners[t.z]})) {
       block.indices.insert(block.indices.end(), {t.x, t.y, t.z});
+      return;
+    }
+    const Triangle ofRim = upToRim(t);
+    if (!isLong(t) && isSteady(ofRim)) {
+      block.pieces.push_back(ofRim);
       return;
     }
     Triangle whole{corners[t.x], corners[t.y], corners[t.z]};
