@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#define GLM_ENABLE_EXPERIMENTAL
+#include <glm/gtx/quaternion.hpp>
+
 #include "beams/build.h"
 #include "render/measure.h"
 #include "scene/emitters.h"
@@ -125,6 +128,70 @@ TEST(TableSource, MotionOfCasterReceiverAndLightTracesNoRay) {
     EXPECT_EQ(planPlanes(set.beams, receiverBoxes(scene), 4, 512).planes, 4u);
   }
   EXPECT_EQ(raysTraced(), before);
+}
+
+// Of the light of the first emitter that meets an object's vertices and is not lost: lm or lux, for a
+// comparison of sources.
+struct VertexLight {
+  uint32_t lit = 0;
+  vec3 direction{0};
+  float transmittance = 0;
+};
+
+VertexLight vertexLight(const Scene& scene, const TransportSource& source, uint32_t object) {
+  TransportQuery query;
+  query.object = object;
+  query.emitter = emittersOf(scene)[0];
+  std::vector<OutgoingRay> rays(scene.meshOf(scene.objects[object]).positions.size());
+  source.vertexRays(query, rays);
+  VertexLight sum;
+  for (const OutgoingRay& ray : rays) {
+    if (ray.flags != 0) continue;
+    ++sum.lit;
+    sum.direction += ray.direction;
+    sum.transmittance += ray.transmittance.y;
+  }
+  return sum;
+}
+
+// A second ball stands behind the first, in the light, and then a plate before both.
+TEST(TableSource, LightGoesOnThroughOtherCastersAndStopsAtWhatStandsBefore) {
+  Scene scene = ballOverFloor();
+  scene.meshes[0] = makeSphere(0.5f, {.vertices = 1600});
+  scene.objects[1].placement.translation.y = -2;
+  Object second = scene.objects[0];
+  const vec3 light = scene.lights[0].position;
+  const vec3 away = normalize(scene.objects[0].placement.translation - light);
+  second.placement.translation += 1.2f * away + vec3(0, 0, 0.5f);
+  second.name = "second";
+  scene.objects.push_back(second);
+  const auto compare = [&](bool isDark) {
+    const RayScene rays(scene);
+    const TracedSource traced(scene, rays);
+    Progress progress;
+    std::vector<std::optional<TransportTable>> tables(scene.objects.size());
+    tables[0] = tables[2] = buildTable(scene.meshes[0], vec3(1.5f), {.directions = 513}, progress);
+    const TableSource table(scene, std::move(tables), traced);
+    for (const uint32_t object : {0u, 2u}) {
+      const VertexLight looked = vertexLight(scene, table, object);
+      const VertexLight exact = vertexLight(scene, traced, object);
+      if (isDark) {
+        EXPECT_EQ(looked.lit, 0u);
+        continue;
+      }
+      // Rims, where a vertex or two may fall on either side, are one part in thirty of the lit ones.
+      EXPECT_NEAR(looked.lit, exact.lit, std::max(0.03 * exact.lit, 3.0)) << object;
+      EXPECT_NEAR(looked.transmittance, exact.transmittance, 0.03f * exact.transmittance + 3) << object;
+      EXPECT_GT(dot(normalize(looked.direction), normalize(exact.direction)), 0.999f) << object;
+    }
+  };
+  compare(false);
+  scene.meshes.push_back(makePlane({1, 1}));
+  scene.objects.push_back({"plate", 2, scene.objects[1].material, {}, std::nullopt});
+  Placement& plate = scene.objects.back().placement;
+  plate.translation = light + 0.3f * away;
+  plate.rotation = glm::rotation(vec3(0, 1, 0), -away);
+  compare(true);
 }
 
 }  // namespace

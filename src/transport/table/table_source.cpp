@@ -4,6 +4,11 @@
 #include <oneapi/tbb/parallel_for.h>
 
 namespace nephroid {
+namespace {
+
+using Range = oneapi::tbb::blocked_range<std::size_t>;
+
+}  // namespace
 
 bool hasTable(const Scene& scene, const Object& object) {
   const Material& material = scene.materialOf(object);
@@ -24,12 +29,31 @@ void TableSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay>
   const Object& object = scene.objects[query.object];
   tableRays(*tables[query.object], scene.meshOf(object), object.placement, scene.materialOf(object),
             query.emitter, query.channel, rays);
-  if (query.isSight) completeSight(query, rays);
+  if (query.isSight)
+    completeSight(query, rays);
+  else
+    meetScene(query, rays);
+}
+
+void TableSource::meetScene(const TransportQuery& query, std::span<OutgoingRay> rays) const {
+  const bool mayBeShaded = traced.mayBeShaded(query);
+  bool mayGoOn = false;
+  for (uint32_t i = 0; i < scene.objects.size(); ++i)
+    mayGoOn |= i != query.object && scene.isCaster(scene.objects[i]);
+  if (!mayBeShaded && !mayGoOn) return;
+  oneapi::tbb::parallel_for(Range(0, rays.size(), 64), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      if (rays[i].flags != 0) continue;
+      if (mayBeShaded && !traced.isVertexLit(query, uint32_t(i)))
+        rays[i].flags |= kRayOccluded;
+      else if (mayGoOn)
+        traced.goOn(query, rays[i]);
+    }
+  });
 }
 
 // Sight is followed where light is lost, and to what it meets.
 void TableSource::completeSight(const TransportQuery& query, std::span<OutgoingRay> rays) const {
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
   oneapi::tbb::parallel_for(Range(0, rays.size(), 64), [&](const Range& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
       if (rays[i].flags & kRayLost)

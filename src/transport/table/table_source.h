@@ -14,7 +14,8 @@ namespace nephroid {
 bool hasTable(const Scene& scene, const Object& object);
 
 // Rays looked up at the vertices of casters that have a table, wherever they stand. A table knows its caster
-// alone: not what stands before or behind it, nor where a ray ends. What no table holds (mirrors, reflection,
+// alone: what may stand before it, and other casters behind it, are looked for with a ray each. What no table
+// holds (mirrors, reflection,
 // a light inside a medium; sight that is totally reflected) is traced.
 class TableSource : public TransportSource {
  public:
@@ -29,6 +30,7 @@ class TableSource : public TransportSource {
 
  private:
   bool isTabulated(const TransportQuery& query) const;
+  void meetScene(const TransportQuery& query, std::span<OutgoingRay> rays) const;
   void completeSight(const TransportQuery& query, std::span<OutgoingRay> rays) const;
 
   const Scene& scene;

@@ -68,6 +68,36 @@ OutgoingRay TracedSource::vertexRay(const TransportQuery& query, uint32_t vertex
   return rayAt(query, {position, position, normal, normal, patch});
 }
 
+bool TracedSource::isVertexLit(const TransportQuery& query, uint32_t vertex) const {
+  const Object& object = scene.objects[query.object];
+  const vec3 position = object.placement.point(scene.meshOf(object).positions[vertex]);
+  SurfacePoint point;
+  point.position = point.flatPosition = position;
+  return isLit(query, point, emitterDirection(query.emitter, position));
+}
+
+// Judged by the boxes: apart along an axis of either, nothing of one is between the emitter and the other.
+bool TracedSource::mayBeShaded(const TransportQuery& query) const {
+  const Object& caster = scene.objects[query.object];
+  const auto& [low, high] = boxes[caster.mesh];
+  const vec3 center = caster.placement.point(0.5f * (low + high));
+  const float radius = 0.5f * length(high - low) * caster.placement.scale;
+  for (uint32_t i = 0; i < scene.objects.size(); ++i) {
+    if (i == query.object) continue;
+    const Object& other = scene.objects[i];
+    const auto& [otherLow, otherHigh] = boxes[other.mesh];
+    const vec3 to = other.placement.inversePoint(center);
+    const float reach = radius / other.placement.scale;
+    const vec3 from = query.emitter.type == kEmitterDirectional
+                          ? to - 1e20f * other.placement.inverseDirection(query.emitter.direction)
+                          : other.placement.inversePoint(query.emitter.position);
+    if (glm::all(glm::greaterThanEqual(glm::max(from, to + reach), otherLow)) &&
+        glm::all(glm::lessThanEqual(glm::min(from, to - reach), otherHigh)))
+      return true;
+  }
+  return false;
+}
+
 void TracedSource::goOn(const TransportQuery& query, OutgoingRay& ray) const {
   const RayScene& rays = follower.rayScene();
   Hit hit;

@@ -23,8 +23,11 @@ class TracedSource : public TransportSource {
   // The ray at one vertex of the caster's mesh.
   OutgoingRay vertexRay(const TransportQuery& query, uint32_t vertex, uint32_t patch) const;
 
-  // Follows a ray of sight on from where it left the query's caster, by whatever it meets next: for those
-  // that come from a source that knows the caster alone.
+  // For sources that know the caster alone: whether nothing stands between the emitter and a vertex of the
+  // caster's mesh; whether another object may do so; and a ray's way from where it left the caster by
+  // whatever it meets next.
+  bool isVertexLit(const TransportQuery& query, uint32_t vertex) const;
+  bool mayBeShaded(const TransportQuery& query) const;
   void goOn(const TransportQuery& query, OutgoingRay& ray) const;
 
   // The media around an emitter, for its queries.
