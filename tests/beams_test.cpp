@@ -90,8 +90,47 @@ TEST(Flux, OfAPointLightOntoAClosedMeshIsItsIntensityTimesFourPi) {
   inside.power = vec3(10);
   double flux = 0;
   for (const uvec3& t : sphere.triangles)
-    flux -= double(fluxOnto(inside, sphere.positions[t.x], sphere.positions[t.y], sphere.positions[t.z]).x);
+    flux -=
+        double(fluxOnto({}, inside, sphere.positions[t.x], sphere.positions[t.y], sphere.positions[t.z]).x);
   EXPECT_NEAR(flux, 40 * kPi, 40 * kPi * 1e-5);
+}
+
+// Onto triangles far larger than the gobo's texels and the cone's edge.
+TEST(Flux, OfAGoboOntoAClosedMeshIsItsIntensityOverAllDirections) {
+  const Mesh sphere = makeSphere(1, {.segments = 40});
+  Scene scene;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> level(0, 1);
+  Texture gobo{"noise", 60, 60, {}};
+  for (int i = 0; i < 3600; ++i) gobo.texels.emplace_back(vec3(level(random)), 1);
+  scene.textures.push_back(gobo);
+  Light light;
+  light.type = LightType::spot;
+  light.position = {0.2f, -0.1f, 0.1f};
+  light.direction = normalize(vec3(1, 2, -3));
+  light.intensity = vec3(10);
+  light.goboTexture = 0;
+  light.innerAngle = 38;
+  light.outerAngle = 40;
+  const ShapedLight shaped = shapedLight(scene, light);
+  const Emitter emitter = emittersOf(light).front();
+  double flux = 0;
+  for (const uvec3& t : sphere.triangles)
+    flux -= double(
+        fluxOnto(shaped, emitter, sphere.positions[t.x], sphere.positions[t.y], sphere.positions[t.z]).x);
+  constexpr int kSteps = 1000;
+  const double least = std::cos(glm::radians(40.0));  // of the cosine from the axis
+  double expected = 0;
+  for (int i = 0; i < kSteps * kSteps; ++i) {
+    const double z = glm::mix(least, 1.0, (i % kSteps + 0.5) / kSteps),
+                 around = 2 * kPi * (i / kSteps) / kSteps;
+    const double aside = std::sqrt(1 - z * z);
+    const vec3 direction = float(aside * std::cos(around)) * shaped.frame.right +
+                           float(aside * std::sin(around)) * shaped.frame.up +
+                           float(z) * shaped.frame.forward;
+    expected += double(lightIntensity(shaped, direction).x) * 2 * kPi * (1 - least) / (kSteps * kSteps);
+  }
+  EXPECT_NEAR(flux, expected, 1e-3 * expected);
 }
 
 struct Arrangement {

@@ -193,18 +193,13 @@ TEST_F(SpotLight, WrongShapesAreToldInOneLine) {
   }
 }
 
-TEST_F(SpotLight, IsDescribedAndRefusedWhereItIsNotDrawn) {
+TEST_F(SpotLight, IsDescribed) {
   writeQuarters();
   write("lamp.ies", kProfile);
   const Scene scene = load(kDown + "gobo = \"gobo.png\"\nies = \"lamp.ies\"\n");
   const std::string text = describe(scene, diagnose(scene));
-  for (const char* part :
-       {"gobo.png (2 x 2)", "lamp.ies (type C, 3 vertical x 5 horizontal", "40 cd", "reference"})
+  for (const char* part : {"gobo.png (2 x 2)", "lamp.ies (type C, 3 vertical x 5 horizontal", "40 cd"})
     EXPECT_NE(text.find(part), std::string::npos) << text << "\nlacks " << part;
-  const std::string error = inputErrorOf([&] { requireDrawableLights(scene); });
-  for (const char* part : {"scene.toml", "\"lamp\"", "--technique reference"})
-    EXPECT_NE(error.find(part), std::string::npos) << error;
-  EXPECT_EQ(inputErrorOf([&] { requireDrawableLights(load(kDown + "intensity = 1\n")); }), "");
 }
 
 TEST(SpotLightData, GobosOfStageLightsLoad) {

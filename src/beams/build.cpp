@@ -54,6 +54,51 @@ float solidAngle(vec3 a, vec3 b, vec3 c) {
   return float(-2 * std::atan2(glm::dot(p, glm::cross(q, r)), denominator));
 }
 
+// Into how many parts a side of a triangle is cut so that no part spans more than a texel of a gobo or the
+// bend of a cone. Corners from the light.
+uint32_t partsOfSide(const ShapedLight& light, const Emitter& emitter, const std::array<vec3, 3>& corners) {
+  constexpr float kWidestPart = 0.05f;  // rad
+  constexpr uint32_t kPartsInFalloff = 4, kMostParts = 16;
+  float parts = 1, falloff[3];
+  vec2 texels[3];
+  for (int i = 0; i < 3; ++i) {
+    const vec3 direction = normalize(corners[i]);
+    falloff[i] = coneFalloff(dot(direction, emitter.direction), emitter.coneScale, emitter.coneOffset);
+    const vec3 local = alongFrame(light.frame, direction);
+    texels[i] = vec2(local) * (light.goboScale / std::max(local.z, 1e-3f));
+    parts = std::max(parts, length(direction - normalize(corners[(i + 1) % 3])) / kWidestPart);
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (light.gobo) parts = std::max(parts, length(texels[i] - texels[(i + 1) % 3]));
+    if (falloff[i] != falloff[0]) parts = std::max(parts, float(kPartsInFalloff));
+  }
+  return std::min(uint32_t(std::ceil(std::min(parts, float(kMostParts)))), kMostParts);
+}
+
+// Over the solid angle of a triangle. Corners from the light.
+vec3 meanIntensity(const ShapedLight& light, const Emitter& emitter, const std::array<vec3, 3>& corners) {
+  const uint32_t parts = partsOfSide(light, emitter, corners);
+  const vec3 across = (corners[1] - corners[0]) / float(parts),
+             along = (corners[2] - corners[0]) / float(parts);
+  vec3 sum(0);
+  float weights = 0;
+  const auto add = [&](float x, float y) {
+    const vec3 middle = corners[0] + x * across + y * along;
+    const vec3 direction = normalize(middle);
+    // All parts have one area and lie in one plane.
+    const float weight = 1 / std::pow(dot(middle, middle), 1.5f);
+    sum += weight * (light.isShaped() ? lightIntensity(light, direction) : emitterPower(emitter, direction));
+    weights += weight;
+  };
+  constexpr float kThird = 1.0f / 3;
+  for (uint32_t y = 0; y < parts; ++y)
+    for (uint32_t x = 0; x + y < parts; ++x) {
+      add(float(x) + kThird, float(y) + kThird);
+      if (x + y + 1 < parts) add(float(x) + 2 * kThird, float(y) + 2 * kThird);
+    }
+  return sum / weights;
+}
+
 // The rays at the mesh's vertices.
 struct VertexRays {
   const Mesh& mesh;
@@ -77,10 +122,11 @@ struct VertexRays {
 // Makes the beams of one triangle of the mesh.
 class Builder {
  public:
-  Builder(const TransportSource& sourceOf, const TransportQuery& queryOf, vec3 color,
-          const BeamSettings& settingsOf, const Surface& surfaceOf, const VertexRays& verticesOf)
+  Builder(const TransportSource& sourceOf, const TransportQuery& queryOf, const ShapedLight& lightOf,
+          vec3 color, const BeamSettings& settingsOf, const Surface& surfaceOf, const VertexRays& verticesOf)
       : source(sourceOf),
         query(queryOf),
+        light(lightOf),
         bandColor(color),
         settings(settingsOf),
         surface(surfaceOf),
@@ -102,7 +148,8 @@ class Builder {
  private:
   vec3 incident(const Triangle& t) const {
     return bandColor *
-           glm::max(facing * fluxOnto(query.emitter, t[0].position, t[1].position, t[2].position), vec3(0));
+           glm::max(facing * fluxOnto(light, query.emitter, t[0].position, t[1].position, t[2].position),
+                    vec3(0));
   }
 
   bool arrives(const OutgoingRay& ray) const {
@@ -243,6 +290,7 @@ class Builder {
 
   const TransportSource& source;
   const TransportQuery& query;
+  const ShapedLight& light;
   const vec3 bandColor;
   const BeamSettings& settings;
   const Surface& surface;
@@ -281,11 +329,12 @@ uint32_t forcedCutsFor(const Mesh& mesh, const uvec3& t, float extent) {
 
 }  // namespace
 
-vec3 fluxOnto(const Emitter& emitter, vec3 a, vec3 b, vec3 c) {
+vec3 fluxOnto(const ShapedLight& light, const Emitter& emitter, vec3 a, vec3 b, vec3 c) {
   if (emitter.type == kEmitterDirectional)
     return emitter.power * (-0.5f * dot(emitter.direction, cross(b - a, c - a)));
-  const vec3 power = emitterPower(emitter, normalize((a + b + c) / 3.0f - emitter.position));
-  return power * solidAngle(a - emitter.position, b - emitter.position, c - emitter.position);
+  const std::array<vec3, 3> corners{a - emitter.position, b - emitter.position, c - emitter.position};
+  const vec3 power = emitter.type == kEmitterSpot ? meanIntensity(light, emitter, corners) : emitter.power;
+  return power * solidAngle(corners[0], corners[1], corners[2]);
 }
 
 BeamSet buildBeams(const Scene& scene, const TransportSource& source, const TransportQuery& query,
@@ -296,6 +345,7 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
   source.vertexRays(query, vertices.rays);
   vertices.findSteadyTriangles();
 
+  const ShapedLight light = shapedLight(scene, scene.lights[query.emitter.light]);
   const float extent = extentOf(mesh);
   const std::size_t blocks = (mesh.triangles.size() + kBlock - 1) / kBlock;
   std::vector<BeamSet> parts(blocks);
@@ -308,7 +358,7 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
         const uint32_t vertex = mesh.triangles[t][i];
         triangle[i] = {mat3(1)[i], surface.positions[i], vertex, vertices.rays[vertex]};
       }
-      Builder(source, query, bandColor, settings, surface, vertices)
+      Builder(source, query, light, bandColor, settings, surface, vertices)
           .add(triangle, forcedCutsFor(mesh, mesh.triangles[t], extent), parts[block]);
     }
   });

@@ -6,6 +6,7 @@
 
 #include "beams/beam.h"
 #include "beams/footprint.h"
+#include "scene/light_intensity.h"
 #include "transport/source.h"
 
 namespace nephroid {
@@ -36,7 +37,8 @@ struct BeamSet {
 BeamSet buildBeams(const Scene& scene, const TransportSource& source, const TransportQuery& query,
                    vec3 bandColor, const BeamSettings& settings);
 
-// lm from the emitter onto a triangle, counted positive where its front (counter-clockwise) faces the light.
-vec3 fluxOnto(const Emitter& emitter, vec3 a, vec3 b, vec3 c);
+// lm from the emitter, which is one of `light`, onto a triangle, counted positive where its front
+// (counter-clockwise) faces the light. A gobo is averaged texel by texel.
+vec3 fluxOnto(const ShapedLight& light, const Emitter& emitter, vec3 a, vec3 b, vec3 c);
 
 }  // namespace nephroid

@@ -12,9 +12,12 @@
 
 namespace nephroid {
 using glm::abs;
+using glm::asin;
+using glm::atan;
 using glm::ceil;
 using glm::clamp;
 using glm::cross;
+using glm::degrees;
 using glm::dot;
 using glm::floor;
 using glm::ivec2;

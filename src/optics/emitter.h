@@ -17,6 +17,7 @@ struct Emitter {
   float coneScale;  // of coneFalloff
   vec3 power;       // cd (point, spot) or lux on a facing surface (directional)
   float coneOffset;
+  uint light;  // which of the scene's it stands for: a gobo or profile of that one shapes its light besides
 };
 
 // Unit vector the light travels along at `point`.

@@ -3,13 +3,20 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/frame_data.h"
 
+#include "optics/light_shape.h"
+
 layout(constant_id = 0) const uint kEmitterType = kEmitterPoint;
 layout(constant_id = 1) const uint kMapCount = 1;  // for each point: 0: nothing can shade; 1; or 6, the faces of a cube about the light: +x, -x, +y, -y, +z, -z
 layout(constant_id = 2) const bool kIsLine = false;
+layout(constant_id = 3) const bool kHasGobo = false;
+layout(constant_id = 4) const uint kProfileType = kNoProfile;  // else kProfileType...
 layout(push_constant, scalar) uniform Constants { DirectConstants constants; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
 layout(set = 0, binding = 2) uniform sampler2DArray shadowMaps;
+layout(set = 0, binding = 3) uniform sampler2D gobo;
+// Row 0 and column 0: vertical and horizontal angles (degrees). The rest: parts of the peak, a row for each horizontal angle.
+layout(set = 0, binding = 4) uniform sampler2D profile;
 layout(location = 0) out vec4 directLux;  // added to that of other lights
 
 // Where `offset`, a vector from the light, is in the face of a cube that looks along the largest part of it.
@@ -56,12 +63,57 @@ float visibility(vec3 offset, vec3 normal, float cosine, vec2 middle, uint first
   return isPerspective && place.z <= 0 ? 1 : sum;
 }
 
+float verticalAngle(int i) { return texelFetch(profile, ivec2(i + 1, 0), 0).r; }
+float horizontalAngle(int i) { return texelFetch(profile, ivec2(0, i + 1), 0).r; }
+
+// As profileFraction in scene/light_intensity.cpp.
+float profileFraction(vec3 local) {
+  const ivec2 counts = textureSize(profile, 0) - 1;
+  const ProfileRange range = ProfileRange(vec2(verticalAngle(0), verticalAngle(counts.x - 1)),
+                                          vec2(horizontalAngle(0), horizontalAngle(counts.y - 1)));
+  const vec2 angles = profileAngles(kProfileType, range, local);
+  if (!profileHolds(kProfileType, range, angles)) return 0;
+  ivec2 low = ivec2(lowerAngle(range.vertical, counts.x, angles.x), 0);
+  while (low.x > 0 && angles.x < verticalAngle(low.x)) --low.x;
+  while (low.x + 2 < counts.x && angles.x > verticalAngle(low.x + 1)) ++low.x;
+  const vec2 verticals = vec2(verticalAngle(low.x), verticalAngle(low.x + 1));
+  vec2 part = vec2((angles.x - verticals.x) / (verticals.y - verticals.x), 0);
+  ivec2 next = ivec2(1, 0);
+  if (counts.y > 1) {
+    low.y = lowerAngle(range.horizontal, counts.y, angles.y);
+    while (low.y > 0 && angles.y < horizontalAngle(low.y)) --low.y;
+    while (low.y + 2 < counts.y && angles.y > horizontalAngle(low.y + 1)) ++low.y;
+    const vec2 horizontals = vec2(horizontalAngle(low.y), horizontalAngle(low.y + 1));
+    part.y = (angles.y - horizontals.x) / (horizontals.y - horizontals.x);
+    next.y = 1;
+  }
+  part = clamp(part, vec2(0), vec2(1));
+  const ivec2 at = low + 1;
+  return mix(mix(texelFetch(profile, at, 0).r, texelFetch(profile, at + ivec2(1, 0), 0).r, part.x),
+             mix(texelFetch(profile, at + ivec2(0, next.y), 0).r, texelFetch(profile, at + next, 0).r, part.x), part.y);
+}
+
+// What gobo and profile leave of the light that goes along `direction`, within the cone.
+vec3 shape(vec3 direction) {
+  const vec3 local = alongFrame(lightFrame(constants.emitter.direction), direction);
+  vec3 part = vec3(1);
+  if (kProfileType != kNoProfile) part *= profileFraction(local);
+  if (kHasGobo) {
+    const vec2 fromMiddle = vec2(local.x, -local.y) * (constants.goboScale / local.z);
+    part *= textureLod(gobo, 0.5 + fromMiddle / vec2(textureSize(gobo, 0)), 0).rgb;
+  }
+  return part;
+}
+
 vec3 illuminance(vec3 point, vec3 normal, vec3 origin, uint index) {
   Emitter emitter = constants.emitter;
   emitter.type = kEmitterType;
   emitter.position = origin;
-  const float cosine = -dot(emitterDirection(emitter, point), normal);
+  const vec3 direction = emitterDirection(emitter, point);
+  const float cosine = -dot(direction, normal);
   vec3 lux = cosine * emitterIlluminance(emitter, point);
+  // Behind a gobo's light there is no place in it to look at.
+  if (kHasGobo || kProfileType != kNoProfile) lux = lux == vec3(0) ? vec3(0) : lux * shape(direction);
   if (kMapCount > 0) {
     vec2 middle = vec2(0);
     if (kIsLine) {

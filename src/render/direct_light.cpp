@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "render/frame_data.h"
+#include "gpu/transfer.h"
+#include "scene/light_intensity.h"
 #include "shaders/direct_frag.h"
 #include "shaders/shadow_vert.h"
 #include "shaders/whole_picture_vert.h"
@@ -25,10 +26,59 @@ mat4 toWorld(const Placement& placement) {
   return map;
 }
 
-DirectConstants directConstants(const ShadowedLight& light) {
+// As direct.frag reads it.
+gpu::Image profileImage(gpu::Device& device, const Profile& profile) {
+  const auto width = static_cast<uint32_t>(profile.verticalAngles.size()) + 1;
+  const auto height = static_cast<uint32_t>(profile.horizontalAngles.size()) + 1;
+  std::vector<float> texels(std::size_t{width} * height);
+  std::ranges::copy(profile.verticalAngles, texels.begin() + 1);
+  for (std::size_t h = 0; h + 1 < height; ++h) {
+    float* row = texels.data() + (h + 1) * width;
+    row[0] = profile.horizontalAngles[h];
+    std::copy_n(profile.fractions.data() + h * (width - 1), width - 1, row + 1);
+  }
+  gpu::Image image = gpu::createImage(device, "profile " + profile.name,
+                                      {.format = VK_FORMAT_R32_SFLOAT, .width = width, .height = height});
+  const auto bytes = std::as_bytes(std::span(texels));
+  gpu::uploadImage(device, image, {{bytes.begin(), bytes.end()}});
+  return image;
+}
+
+}  // namespace
+
+DirectLight::DirectLight(gpu::Device& device, const Scene& scene, uint32_t shadowMapSize)
+    : device_(device),
+      shadowMapSize_(shadowMapSize),
+      shadowProgram_(shadowProgram(device, "shadow", VK_CULL_MODE_NONE)),
+      closedShadowProgram_(shadowProgram(device, "closed shadow", VK_CULL_MODE_BACK_BIT)),
+      sampler_(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})),
+      goboSampler_(gpu::createSampler(device)) {
+  for (const Profile& profile : scene.profiles) profiles_.push_back(profileImage(device, profile));
+  profiles_.push_back(profileImage(device, {"none", PhotometryType::c, {0, 180}, {0}, {0, 0}, 0}));
+}
+
+DirectLight::DrawnLight DirectLight::drawn(const Scene& scene, ShadowedLight shadowed) {
+  const Light& light = scene.lights[shadowed.emitter.light];
+  DrawnLight drawn{std::move(shadowed), {}, kNone, kNone, 0};
+  drawn.key = {.type = drawn.shadowed.emitter.type,
+               .mapCount = drawn.shadowed.mapCount,
+               .isLine = drawn.shadowed.samples > 1};
+  if (light.type != LightType::spot) return drawn;
+  drawn.gobo = light.goboTexture;
+  drawn.profile = light.profile;
+  drawn.goboScale = shapedLight(scene, light).goboScale;
+  drawn.key.hasGobo = drawn.gobo != kNone;
+  if (drawn.profile != kNone)
+    drawn.key.profileType = static_cast<uint32_t>(scene.profiles[drawn.profile].type);
+  return drawn;
+}
+
+DirectConstants DirectLight::constantsOf(const DrawnLight& drawn) {
+  const ShadowedLight& light = drawn.shadowed;
   DirectConstants constants{};
   constants.emitter = light.emitter;
   constants.samples = light.samples;
+  constants.goboScale = drawn.goboScale;
   if (light.samples > 1) constants.emitter.direction = light.step;
   if (light.mapCount == 0) return constants;
   const ShadowProjection& projection = light.projection;
@@ -48,26 +98,15 @@ DirectConstants directConstants(const ShadowedLight& light) {
   return constants;
 }
 
-}  // namespace
-
-DirectLight::DirectLight(gpu::Device& device, uint32_t shadowMapSize)
-    : device_(device),
-      shadowMapSize_(shadowMapSize),
-      shadowProgram_(shadowProgram(device, "shadow", VK_CULL_MODE_NONE)),
-      closedShadowProgram_(shadowProgram(device, "closed shadow", VK_CULL_MODE_BACK_BIT)),
-      sampler_(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {}
-
-DirectLight::ProgramKey DirectLight::keyOf(const ShadowedLight& light) {
-  return {light.emitter.type, light.mapCount, light.samples > 1};
-}
-
 void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& extents) {
-  lights_ = planShadowMaps(scene, extents, shadowMapSize_);
   objectsToWorld_.clear();
   for (const Object& object : scene.objects) objectsToWorld_.push_back(toWorld(object.placement));
+  lights_.clear();
+  for (ShadowedLight& light : planShadowMaps(scene, extents, shadowMapSize_))
+    lights_.push_back(drawn(scene, std::move(light)));
   maps_.resize(lights_.size());
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const ShadowedLight& light = lights_[i];
+    const ShadowedLight& light = lights_[i].shadowed;
     const auto layers = std::max<uint32_t>(static_cast<uint32_t>(light.maps.size()), 1);
     if (!maps_[i] || maps_[i].layerCount() < layers || maps_[i].width() != light.resolution)
       maps_[i] = gpu::createImage(device_, "shadow maps",
@@ -75,36 +114,44 @@ void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& exte
                                    .width = light.resolution,
                                    .height = light.resolution,
                                    .layers = layers});
-    const ProgramKey key = keyOf(light);
+    const ProgramKey& key = lights_[i].key;
     if (!programs_.contains(key))
-      programs_[key] =
-          gpu::createRasterProgram(device_, "direct light", shaders::whole_picture_vert, shaders::direct_frag,
-                                   {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
-                                   {{0, key.type}, {1, key.mapCount}, {2, key.isLine}});
+      programs_[key] = gpu::createRasterProgram(
+          device_, "direct light", shaders::whole_picture_vert, shaders::direct_frag,
+          {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
+          {{0, key.type}, {1, key.mapCount}, {2, key.isLine}, {3, key.hasGobo}, {4, key.profileType}});
   }
 }
 
 void DirectLight::recordShadowMaps(gpu::CommandList& commands, const GpuScene& gpuScene) {
-  for (std::size_t i = 0; i < lights_.size(); ++i)
-    for (uint32_t layer = 0; layer < lights_[i].maps.size(); ++layer) {
-      const ShadowMap& map = lights_[i].maps[layer];
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const std::vector<ShadowMap>& maps = lights_[i].shadowed.maps;
+    for (uint32_t layer = 0; layer < maps.size(); ++layer)
       commands.render({.colors = {}, .depth = gpu::DepthAttachment{&maps_[i], layer, 1.0f}}, [&] {
-        for (const ShadowCaster& caster : map.casters)
+        for (const ShadowCaster& caster : maps[layer].casters)
           commands.drawIndexed(
               caster.hidesItsFarSide ? closedShadowProgram_ : shadowProgram_, gpuScene.indices(),
               gpuScene.draws()[caster.object].range, 1,
-              ShadowConstants{gpuScene.vertices(), map.worldToMap * objectsToWorld_[caster.object]});
+              ShadowConstants{gpuScene.vertices(), maps[layer].worldToMap * objectsToWorld_[caster.object]});
       });
-    }
+  }
 }
 
-void DirectLight::record(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& lux) {
+void DirectLight::record(gpu::CommandList& commands, const GpuScene& gpuScene, const ReceiverPoints& points,
+                         const gpu::Image& lux) {
   const bool isAll = points.region.size.x == 0 || points.region.size.y == 0;
   commands.render(
       {.colors = {{&lux, 0, vec4(0)}}, .region = isAll ? std::nullopt : std::optional(points.region)}, [&] {
-        for (std::size_t i = 0; i < lights_.size(); ++i)
-          commands.draw(programs_.at(keyOf(lights_[i])), 3, 1, directConstants(lights_[i]),
-                        {*points.position, *points.normal, {maps_[i], sampler_}});
+        for (std::size_t i = 0; i < lights_.size(); ++i) {
+          const DrawnLight& light = lights_[i];
+          const std::size_t profile = std::min<std::size_t>(light.profile, profiles_.size() - 1);
+          commands.draw(programs_.at(light.key), 3, 1, constantsOf(light),
+                        {*points.position,
+                         *points.normal,
+                         {maps_[i], sampler_},
+                         {gpuScene.texture(light.gobo), goboSampler_},
+                         {profiles_[profile], sampler_}});
+        }
       });
 }
 

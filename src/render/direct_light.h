@@ -8,6 +8,8 @@
 #include "gpu/command_list.h"
 #include "gpu/program.h"
 #include "gpu/resources.h"
+#include "optics/light_shape.h"
+#include "render/frame_data.h"
 #include "render/shadow_maps.h"
 #include "techniques/gpu_scene.h"
 #include "techniques/technique.h"
@@ -18,8 +20,8 @@ namespace nephroid {
 // does.
 class DirectLight {
  public:
-  // The device outlives it. `shadowMapSize` is that of planShadowMaps.
-  DirectLight(gpu::Device& device, uint32_t shadowMapSize);
+  // The device outlives it. `scene` gives the profiles of lights. `shadowMapSize` is that of planShadowMaps.
+  DirectLight(gpu::Device& device, const Scene& scene, uint32_t shadowMapSize);
 
   // What the host does in a frame. `extents` are those of scene.meshes. Nothing is in use by the device.
   void update(const Scene& scene, const std::vector<MeshExtent>& extents);
@@ -28,7 +30,8 @@ class DirectLight {
 
   // Illuminance (lux) on each receiver point of the region asked for, in place of what stood there. `lux` is
   // rgba32f and of the size of the points. May be called several times a frame.
-  void record(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& lux);
+  void record(gpu::CommandList& commands, const GpuScene& gpuScene, const ReceiverPoints& points,
+              const gpu::Image& lux);
 
  private:
   // What a pipeline is made for. A light's points have no shadow map, one, or six.
@@ -36,9 +39,20 @@ class DirectLight {
     uint32_t type = kEmitterPoint;
     uint32_t mapCount = 0;
     bool isLine = false;
+    bool hasGobo = false;
+    uint32_t profileType = kNoProfile;
     auto operator<=>(const ProgramKey&) const = default;
   };
-  static ProgramKey keyOf(const ShadowedLight& light);
+  // A light as the passes of this frame draw it.
+  struct DrawnLight {
+    ShadowedLight shadowed;
+    ProgramKey key;
+    uint32_t gobo = kNone;     // in Scene::textures
+    uint32_t profile = kNone;  // in Scene::profiles
+    float goboScale = 0;
+  };
+  static DrawnLight drawn(const Scene& scene, ShadowedLight shadowed);
+  static DirectConstants constantsOf(const DrawnLight& light);
 
   gpu::Device& device_;
   uint32_t shadowMapSize_;
@@ -47,10 +61,12 @@ class DirectLight {
   gpu::Program closedShadowProgram_;
   std::map<ProgramKey, gpu::Program> programs_;
   gpu::Sampler sampler_;
-  std::vector<gpu::Image> maps_;  // of each light
+  gpu::Sampler goboSampler_;
+  std::vector<gpu::Image> profiles_;  // as Scene::profiles, and a dark one last
+  std::vector<gpu::Image> maps_;      // of each light
 
   // Of the frame being made.
-  std::vector<ShadowedLight> lights_;
+  std::vector<DrawnLight> lights_;
   std::vector<mat4> objectsToWorld_;
 };
 

@@ -55,8 +55,9 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       programs_(createFramePrograms(device, hasEmission(transport.scene()))),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
       sight_(device, settings.sight),
-      directLight_(device, settings.shadowMapSize > 0 ? settings.shadowMapSize
-                                                      : std::max(settings.size.x, settings.size.y)) {
+      directLight_(
+          device, transport.scene(),
+          settings.shadowMapSize > 0 ? settings.shadowMapSize : std::max(settings.size.x, settings.size.y)) {
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
 }
 
@@ -135,7 +136,7 @@ void Renderer::light(gpu::CommandList& commands, const SeenImages& seen, const g
   const ReceiverPoints points{&seen.position, &seen.normal, region};
   commands.pass("direct light", [&] {
     clearRegion(commands, seen.causticsLux, region);
-    directLight_.record(commands, points, seen.directLux);
+    directLight_.record(commands, gpuScene_, points, seen.directLux);
   });
   technique_.shade(commands, points, seen.causticsLux);
 }

@@ -38,6 +38,7 @@ struct DirectConstants {
                     // perspective
   vec3 aim;         // m
   uint samples;     // points of a line
+  float goboScale;  // texels of the gobo over the tangent of the angle from the light's direction
 };
 
 struct CompositeConstants {

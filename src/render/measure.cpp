@@ -13,7 +13,8 @@ namespace {
 
 constexpr uint32_t kShadowGrid = 4;  // points along a texel's side that look at each light
 
-vec3 directAt(const RayScene& rays, const std::vector<Emitter>& emitters, vec3 point, vec3 normal) {
+vec3 directAt(const RayScene& rays, const std::vector<ShapedLight>& lights,
+              const std::vector<Emitter>& emitters, vec3 point, vec3 normal) {
   const float margin = rays.selfIntersectionDistance();
   vec3 sum(0);
   for (const Emitter& emitter : emitters) {
@@ -24,7 +25,7 @@ vec3 directAt(const RayScene& rays, const std::vector<Emitter>& emitters, vec3 p
                                                                : length(emitter.position - point);
     // A sensor may lie on a surface, so the first part of the way is not looked at.
     if (!rays.occluded({point, -direction, 10 * margin, distance - margin}))
-      sum += cosine * emitterIlluminance(emitter, point);
+      sum += cosine * illuminance(lights[emitter.light], emitter, point);
   }
   return sum;
 }
@@ -40,8 +41,8 @@ void addChannels(Image& image, const std::string& prefix, const SensorLayer& lay
 
 SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor,
                           Progress& progress) {
-  requireDrawableLights(scene);
   const std::vector<Emitter> emitters = emittersOf(scene);
+  const std::vector<ShapedLight> lights = shapedLights(scene);
   const vec3 normal = sensor.normal();
   SensorLayer layer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
   progress.begin("direct light", sensor.resolution.y);
@@ -53,7 +54,7 @@ SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor
             vec2(float(i % kShadowGrid) + 0.5f, float(i / kShadowGrid) + 0.5f) / float(kShadowGrid);
         const vec3 point = sensor.corner + sensor.u * ((float(column) + at.x) / float(sensor.resolution.x)) +
                            sensor.v * ((float(row) + at.y) / float(sensor.resolution.y));
-        sum += directAt(rays, emitters, point, normal);
+        sum += directAt(rays, lights, emitters, point, normal);
       }
       layer[std::size_t(row) * sensor.resolution.x + column] = sum / float(kShadowGrid * kShadowGrid);
     }
@@ -66,7 +67,6 @@ SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor
 SensorLayer measureBeams(const Scene& scene, const RayScene& rays, const TransportSource& source,
                          const Sensor& sensor, Paths paths, uint32_t refineDepth, Progress& progress,
                          Stats& stats) {
-  requireDrawableLights(scene);
   const TracedSource media(scene, rays);
   const PlaneGrid grid = gridOf(sensor);
   BeamSettings settings;

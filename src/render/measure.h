@@ -10,8 +10,7 @@
 
 namespace nephroid {
 
-// Illuminance (lux) of one kind of light on a sensor's texels, rows first. Both ways to it throw InputError
-// where a light cannot be drawn (requireDrawableLights).
+// Illuminance (lux) of one kind of light on a sensor's texels, rows first.
 using SensorLayer = std::vector<vec3>;
 
 // Light that met no caster: shadow rays from a grid of points in every texel to every emitter.

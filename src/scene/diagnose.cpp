@@ -131,9 +131,6 @@ void warnAboutScene(const Scene& scene, SceneReport& report) {
                        " without an area left out");
   }
   if (scene.medium) warnings.push_back("the medium is drawn by --technique reference alone");
-  for (const Light& light : scene.lights) {
-    if (const std::string why = whyNotDrawable(light); !why.empty()) warnings.push_back(why);
-  }
   for (const Material& material : scene.materials) {
     if (material.emission != vec3(0)) {
       warnings.push_back("the material \"" + material.name + "\" glows, but lights nothing else");

@@ -23,10 +23,12 @@ inline SpotCone coneOf(const Light& light) {
   return {scale, -cosOuter * scale};
 }
 
-// The emitters light `light` stands for: one, or `samples` points of equal share along a line, each at the
-// middle of its part. Gobos and profiles are left out (requireDrawableLights).
-inline std::vector<Emitter> emittersOf(const Light& light) {
+// The emitters light `light` stands for, which is the `index`-th of its scene: one, or `samples` points of
+// equal share along a line, each at the middle of its part. Gobos and profiles are not in them
+// (light_intensity.h).
+inline std::vector<Emitter> emittersOf(const Light& light, uint32_t index = 0) {
   Emitter emitter{};
+  emitter.light = index;
   emitter.position = light.position;
   emitter.direction = light.direction;
   emitter.power = light.intensity;
@@ -58,8 +60,8 @@ inline std::vector<Emitter> emittersOf(const Light& light) {
 
 inline std::vector<Emitter> emittersOf(const Scene& scene) {
   std::vector<Emitter> all;
-  for (const Light& light : scene.lights) {
-    const std::vector<Emitter> some = emittersOf(light);
+  for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const std::vector<Emitter> some = emittersOf(scene.lights[i], i);
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

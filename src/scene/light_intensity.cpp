@@ -3,13 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "scene/mesh_file.h"
-
 namespace nephroid {
 namespace {
-
-constexpr float kNearlyVertical = 1e-4f;  // sine of the angle from the vertical
 
 // Where an angle lies between two neighbours.
 struct Bracket {
@@ -17,50 +12,22 @@ struct Bracket {
   float fraction = 0;  // of the way to the next
 };
 
-// `angle` within the angles, of which there are two or more. Mostly they are evenly spaced.
+static_assert(uint32_t(PhotometryType::c) == kProfileTypeC && uint32_t(PhotometryType::b) == kProfileTypeB &&
+              uint32_t(PhotometryType::a) == kProfileTypeA);
+
+vec2 rangeOf(const std::vector<float>& angles) {
+  return {angles.front(), angles.back()};
+}
+
+// `angle` within the angles, of which there are two or more.
 Bracket bracketOf(const std::vector<float>& angles, float angle) {
-  const std::size_t last = angles.size() - 2;
-  const float even = (angle - angles.front()) / (angles.back() - angles.front()) * float(angles.size() - 1);
-  std::size_t low = std::min(static_cast<std::size_t>(std::max(even, 0.0f)), last);
+  auto low = static_cast<std::size_t>(lowerAngle(rangeOf(angles), static_cast<int>(angles.size()), angle));
   if (!(angles[low] <= angle && angle <= angles[low + 1])) {
     const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, angle);
     low = static_cast<std::size_t>(above - angles.begin()) - 1;
   }
   const float fraction = (angle - angles[low]) / (angles[low + 1] - angles[low]);
   return {low, glm::clamp(fraction, 0.0f, 1.0f)};
-}
-
-// The horizontal angle, 0 to 360, as the file has it by symmetry.
-float foldedTypeC(const std::vector<float>& angles, float horizontal) {
-  const float first = angles.front(), last = angles.back();
-  if (first == 90 && last == 270) {
-    if (horizontal < 90) return 180 - horizontal;
-    return horizontal > 270 ? 540 - horizontal : horizontal;
-  }
-  if (last <= 180 && horizontal > 180) horizontal = 360 - horizontal;
-  if (last <= 90 && horizontal > 90) horizontal = 180 - horizontal;
-  return horizontal;
-}
-
-float degreesOf(float y, float x) {
-  return glm::degrees(std::atan2(y, x));
-}
-
-// An angle of type A or B as the file has it by symmetry.
-float foldedTypeAOrB(const std::vector<float>& angles, float angle) {
-  return angles.front() == 0 ? std::abs(angle) : angle;
-}
-
-float fractionAt(const Profile& profile, float vertical, float horizontal) {
-  if (vertical < profile.verticalAngles.front() || vertical > profile.verticalAngles.back()) return 0;
-  const Bracket v = bracketOf(profile.verticalAngles, vertical);
-  const std::size_t stride = profile.verticalAngles.size();
-  const float* values = profile.fractions.data() + v.low;
-  if (profile.horizontalAngles.size() == 1) return glm::mix(values[0], values[1], v.fraction);
-  const Bracket h = bracketOf(profile.horizontalAngles, horizontal);
-  values += h.low * stride;
-  return glm::mix(glm::mix(values[0], values[1], v.fraction),
-                  glm::mix(values[stride], values[stride + 1], v.fraction), h.fraction);
 }
 
 // Integral of a function that is linear between the angles (degrees) times the sine of the angle from
@@ -104,36 +71,21 @@ vec3 goboTransmittance(const Texture& gobo, float scale, vec3 local) {
 
 }  // namespace
 
-LightFrame lightFrame(vec3 direction) {
-  LightFrame frame;
-  frame.forward = direction;
-  const vec2 level(direction.x, direction.z);
-  const float sine = length(level);
-  // Near the vertical, as of a light that faces -Z and is tilted there.
-  const vec2 ahead = sine > kNearlyVertical ? level / sine : vec2(0, -1);
-  frame.right = vec3(-ahead.y, 0, ahead.x);
-  frame.up = glm::normalize(cross(frame.right, direction));
-  frame.right = cross(direction, frame.up);
-  return frame;
-}
-
 float profileFraction(const Profile& profile, vec3 local) {
   const auto& verticals = profile.verticalAngles;
   const auto& horizontals = profile.horizontalAngles;
-  if (profile.type == PhotometryType::c) {
-    const float vertical = degreesOf(length(vec2(local)), local.z);
-    if (horizontals.size() == 1) return fractionAt(profile, vertical, 0);
-    const float horizontal = degreesOf(-local.x, local.y);
-    return fractionAt(profile, vertical,
-                      foldedTypeC(horizontals, horizontal < 0 ? horizontal + 360 : horizontal));
-  }
-  const bool isTypeA = profile.type == PhotometryType::a;
-  const float latitude = glm::degrees(std::asin(glm::clamp(isTypeA ? local.y : local.x, -1.0f, 1.0f)));
-  const float longitude = degreesOf(isTypeA ? local.x : local.y, local.z);
-  const float vertical = foldedTypeAOrB(verticals, isTypeA ? latitude : longitude);
-  const float horizontal = foldedTypeAOrB(horizontals, isTypeA ? longitude : latitude);
-  if (horizontal < horizontals.front() || horizontal > horizontals.back()) return 0;
-  return fractionAt(profile, vertical, horizontal);
+  const auto type = static_cast<uint32_t>(profile.type);
+  const ProfileRange range{rangeOf(verticals), rangeOf(horizontals)};
+  const vec2 angles = profileAngles(type, range, local);
+  if (!profileHolds(type, range, angles)) return 0;
+  const Bracket v = bracketOf(verticals, angles.x);
+  const std::size_t stride = verticals.size();
+  const float* values = profile.fractions.data() + v.low;
+  if (horizontals.size() == 1) return glm::mix(values[0], values[1], v.fraction);
+  const Bracket h = bracketOf(horizontals, angles.y);
+  values += h.low * stride;
+  return glm::mix(glm::mix(values[0], values[1], v.fraction),
+                  glm::mix(values[stride], values[stride + 1], v.fraction), h.fraction);
 }
 
 ShapedLight shapedLight(const Scene& scene, const Light& light) {
@@ -151,15 +103,26 @@ ShapedLight shapedLight(const Scene& scene, const Light& light) {
   return shaped;
 }
 
+std::vector<ShapedLight> shapedLights(const Scene& scene) {
+  std::vector<ShapedLight> lights;
+  for (const Light& light : scene.lights) lights.push_back(shapedLight(scene, light));
+  return lights;
+}
+
 vec3 lightIntensity(const ShapedLight& light, vec3 direction) {
-  const LightFrame& frame = light.frame;
-  const vec3 local(dot(direction, frame.right), dot(direction, frame.up), dot(direction, frame.forward));
+  const vec3 local = alongFrame(light.frame, direction);
   const float falloff = coneFalloff(local.z, light.cone.scale, light.cone.offset);
   if (!(falloff > 0)) return vec3(0);
   vec3 intensity = light.intensity * falloff;
   if (light.profile) intensity *= profileFraction(*light.profile, local);
   if (light.gobo) intensity *= goboTransmittance(*light.gobo, light.goboScale, local);
   return intensity;
+}
+
+vec3 illuminance(const ShapedLight& light, const Emitter& emitter, vec3 point) {
+  if (!light.isShaped()) return emitterIlluminance(emitter, point);
+  const vec3 offset = point - emitter.position;
+  return lightIntensity(light, normalize(offset)) / dot(offset, offset);
 }
 
 double profileFlux(const Profile& profile) {
@@ -186,19 +149,6 @@ double profileFlux(const Profile& profile) {
     copies = 360.0 / (horizontals.back() - horizontals.front());
   }
   return profile.peak * copies * sum;
-}
-
-std::string whyNotDrawable(const Light& light) {
-  if (light.goboTexture == kNone && light.profile == kNone) return "";
-  return "the light \"" + light.name + "\" has " +
-         (light.goboTexture != kNone ? "a gobo" : "an IES profile") +
-         ", which only --technique reference draws";
-}
-
-void requireDrawableLights(const Scene& scene) {
-  for (const Light& light : scene.lights)
-    if (const std::string why = whyNotDrawable(light); !why.empty())
-      throw InputError(oneLine(scene.file.string() + ": " + why));
 }
 
 }  // namespace nephroid

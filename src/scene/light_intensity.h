@@ -1,19 +1,11 @@
-// How bright a light is in a direction: the one answer behind every technique that knows gobos and profiles.
+// How bright a light is in a direction, with its gobo and its profile.
 #pragma once
 
+#include "optics/light_shape.h"
 #include "scene/emitters.h"
 #include "scene/scene.h"
 
 namespace nephroid {
-
-// Unit axes at a light, for who looks along it.
-struct LightFrame {
-  vec3 right;
-  vec3 up;       // +Y as far as it can be; straight down -Z, straight up +Z
-  vec3 forward;  // the light's direction
-};
-
-LightFrame lightFrame(vec3 direction);
 
 // A light with what its intensity in every direction has in common: made once, asked often. The scene must
 // outlive it.
@@ -24,10 +16,15 @@ struct ShapedLight {
   const Profile* profile = nullptr;
   const Texture* gobo = nullptr;
   float goboScale = 0;  // texels over the tangent of the angle from the axis
+
+  // Not by its cone alone.
+  bool isShaped() const { return profile || gobo; }
 };
 
-// Of a point, spot or line light.
+// For a directional light, which has no intensity, one without shape.
 ShapedLight shapedLight(const Scene& scene, const Light& light);
+
+std::vector<ShapedLight> shapedLights(const Scene& scene);
 
 // Luminous intensity (cd) toward the unit vector `direction`; of the whole tube for a line. Cone of
 // KHR_lights_punctual, times gobo, times profile.
@@ -36,6 +33,9 @@ vec3 lightIntensity(const ShapedLight& light, vec3 direction);
 inline vec3 lightIntensity(const Scene& scene, const Light& light, vec3 direction) {
   return lightIntensity(shapedLight(scene, light), direction);
 }
+
+// Illuminance (lux) at `point` on a surface facing the emitter, which is one of `light`.
+vec3 illuminance(const ShapedLight& light, const Emitter& emitter, vec3 point);
 
 // As much as lightIntensity gives in any direction: neither cone nor gobo nor profile makes a light brighter.
 inline vec3 peakIntensity(const Light& light) {
@@ -47,11 +47,5 @@ float profileFraction(const Profile& profile, vec3 local);
 
 // Lumens of the profile by itself, at the peak that it was measured with.
 double profileFlux(const Profile& profile);
-
-// What of a light only the reference technique draws, as a sentence that names it; empty for nothing.
-std::string whyNotDrawable(const Light& light);
-
-// Throws InputError where there is such a light.
-void requireDrawableLights(const Scene& scene);
 
 }  // namespace nephroid

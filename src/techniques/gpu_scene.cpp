@@ -105,8 +105,7 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene) {
   uploadTextures(device, scene);
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {
     const Material& material = scene.materialOf(scene.objects[i]);
-    const std::size_t texture = std::min<std::size_t>(material.colorTexture, textures_.size() - 1);
-    draws_.push_back({i, material.type, ranges[scene.objects[i].mesh], &textures_[texture]});
+    draws_.push_back({i, material.type, ranges[scene.objects[i].mesh], &texture(material.colorTexture)});
   }
   place(scene);
 }

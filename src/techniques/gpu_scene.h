@@ -2,6 +2,7 @@
 // `place`.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "gpu/command_list.h"
@@ -31,6 +32,10 @@ class GpuScene {
   uint64_t vertices() const { return vertices_.address(); }    // SceneVertex[]
   uint64_t objects() const { return objects_.address(); }      // SceneObject[]
   uint64_t materials() const { return materials_.address(); }  // SceneMaterial[]
+  // Of Scene::textures, in linear half floats; white for kNone.
+  const gpu::Image& texture(uint32_t index) const {
+    return textures_[std::min<std::size_t>(index, textures_.size() - 1)];
+  }
   const gpu::Sampler& textureSampler() const { return textureSampler_; }
 
  private:

@@ -56,7 +56,9 @@ std::span<const Omission> omissionsOfFrame() {
       {"The air: the medium neither scatters light into shafts nor takes any away", hasMedium},
       {"The length of line lights: each is a row of points, in its light, its shadows and its caustics",
        hasLineLight},
-      {"Shadow edges finer than three texels of a shadow map of 1024 x 1024", hasLightAndReceiver},
+      {"Shadow edges finer than two texels of a shadow map; there are as many texels as pixels along the "
+       "picture's longer side, divided by the square root of a line light's points",
+       hasLightAndReceiver},
       {"Smooth edges: a pixel shows what its centre sees, not the mean over its square", always},
   };
   return kOmissions;

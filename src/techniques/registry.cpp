@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "scene/light_intensity.h"
 #include "techniques/illumination_textures/illumination_textures.h"
 
 namespace nephroid {
@@ -30,7 +29,6 @@ std::span<const TechniqueEntry> techniques() {
 }
 
 std::unique_ptr<Technique> makeTechnique(const TechniqueContext& context) {
-  requireDrawableLights(context.transport.scene());
   const std::string& wanted = context.settings.technique;
   std::vector<std::string> names;
   std::string all;

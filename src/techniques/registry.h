@@ -31,7 +31,7 @@ struct TechniqueEntry {
 std::span<const TechniqueEntry> techniques();
 
 // The technique `settings.technique` names. Throws InputError with the nearest name when there is none of
-// that name, and where a light of the scene cannot be drawn (requireDrawableLights).
+// that name.
 std::unique_ptr<Technique> makeTechnique(const TechniqueContext& context);
 
 }  // namespace nephroid
