@@ -167,6 +167,29 @@ TEST_F(SightGpuTest, ACausticThroughAPaneIsAsBrightAsThePaneLetsThrough) {
   EXPECT_NEAR(throughPane / direct, expected, 0.01 * expected);
 }
 
+// Straight down into still, tinted water: radiance falls by the square of the index where it leaves, by
+// Fresnel, and by the way through the water.
+TEST_F(SightGpuTest, WhatLiesUnderWaterIsDimmedByTheSquareOfTheIndexAndByDepth) {
+  Scene scene;
+  scene.environment.ambient = vec3(std::numbers::pi_v<float>);
+  scene.environment.background = vec3(0.25f);
+  scene.camera = {.position = {0, 3, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .verticalFov = 2};
+  Material water = glass();
+  water.ior = vec3(1.33f);
+  water.attenuationColor = {0.3f, 0.6f, 0.9f};
+  water.attenuationDistance = 2;
+  scene.materials = {{.name = "floor", .color = vec3(0.5f)}, water};
+  scene.meshes = {makePlane({8, 8}), makeWater({{8, 8}, {32, 32}, {}}, 0)};
+  scene.objects = {{"floor", 0, 0, {vec3(0, -1, 0), quat(1, 0, 0, 0), 1}, std::nullopt},
+                   {"water", 1, 1, {}, std::nullopt}};
+  const vec3 center = drawn(scene, Source::traced)[std::size_t(kSize.x) * (kSize.y / 2) + kSize.x / 2];
+  const float reflected = fresnelReflectance(1, 1 / 1.33f);
+  const vec3 expected =
+      (1 - reflected) * 0.5f / (1.33f * 1.33f) * glm::pow(water.attenuationColor, vec3(0.5f)) +
+      reflected * 0.25f;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(center[c], expected[c], 2e-3f * expected[c]) << c;
+}
+
 // Between pictures half a degree apart, all around the glass: no step is larger than the scene's own.
 TEST_F(SightGpuTest, NothingPopsAsTheCameraGoesAround) {
   constexpr uvec2 kSmall(96, 72);

@@ -73,7 +73,7 @@ bool crossDielectric(const std::vector<const Material*>& materials, const Follow
     return true;
   }
   ray.direction = transmitted;
-  ray.transmittance *= 1 - reflectance;
+  ray.transmittance *= (1 - reflectance) * (settings.isSight ? eta * eta : 1.0f);
   ray.signature = extendSignature(ray.signature, object, patch, entering ? Event::entered : Event::left);
   walk.media = beyond;
   return true;
@@ -140,6 +140,7 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
       continue;
     }
     if (goesOn) ray.reach = hit.distance;
+    if (goesOn && settings.isSight) absorb(materials, hit.distance, walk);
     const bool leaked = !goesOn && walk.media.top() != kNone && rays.isClosed(walk.media.top());
     const bool planUnfulfilled = (settings.reflections >> walk.choices) != 0;
     if (leaked || planUnfulfilled) ray.flags |= kRayLost;

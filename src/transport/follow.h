@@ -16,6 +16,9 @@ struct FollowSettings {
   uint32_t channel = 0;
   Paths paths = Paths::transmission;
   uint32_t reflections = 0;  // as TransportQuery
+  // As TransportQuery: what is followed against the light is radiance, which changes with the square of the
+  // index (Veach 1997, 5.2); and it ends on a receiver, up to which it is absorbed.
+  bool isSight = false;
 };
 
 class Follower {

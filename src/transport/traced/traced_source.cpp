@@ -48,7 +48,7 @@ OutgoingRay TracedSource::rayAt(const TransportQuery& query, const SurfacePoint&
     return ray;
   }
   ray = follower.follow(point, query.object, direction, query.media,
-                        {query.channel, query.paths, query.reflections});
+                        {query.channel, query.paths, query.reflections, query.isSight});
   if (query.media.size > 0) {
     // The way from the light to the surface lies inside a medium as well.
     const Material& medium = scene.materialOf(scene.objects[query.media.top()]);
@@ -113,7 +113,7 @@ void TracedSource::goOn(const TransportQuery& query, OutgoingRay& ray) const {
   }
   const OutgoingRay after = follower.follow(
       {hit.position, hit.flatPosition, hit.normal, hit.geometricNormal, hit.patch}, hit.object, ray.direction,
-      query.media, {query.channel, query.paths, query.reflections});
+      query.media, {query.channel, query.paths, query.reflections, query.isSight});
   ray.position = after.position;
   ray.direction = after.direction;
   ray.pathLength += after.pathLength;
