@@ -9,7 +9,7 @@ packages=(
   glslang-tools                                 # GLSL to SPIR-V, while building
   libvulkan-dev libvulkan-volk-dev libspirv-cross-c-shared-dev mesa-vulkan-drivers
   libembree-dev libtbb-dev libglm-dev
-  libtinygltf-dev libtinyobjloader-dev libassimp-dev libtomlplusplus-dev
+  libtinygltf-dev libtinyobjloader-dev libassimp-dev libopenmesh-dev libtomlplusplus-dev
   libopenexr-dev libpng-dev libcli11-dev nlohmann-json3-dev libxxhash-dev
   glmark2-data                                  # the bunny, the cat and the horse
 )

@@ -4,6 +4,7 @@
 #include "scene/framing.h"
 #include "scene/load.h"
 #include "scene/mesh_checks.h"
+#include "scene/shapes.h"
 #include "scratch_files.h"
 #include "shared_data.h"
 
@@ -274,6 +275,31 @@ TEST_F(SceneFile, ObjectsOfOneFileShareItsMesh) {
   const Scene scene = load(kMaterials + object + object);
   EXPECT_EQ(scene.objects.size(), 2u);
   EXPECT_EQ(scene.meshes.size(), 1u);
+}
+
+TEST_F(SceneFile, AMeshIsSimplifiedToTheVerticesAskedFor) {
+  std::ostringstream obj;
+  const Mesh ball = makeSphere(1, {.vertices = 6000});
+  for (const vec3 p : ball.positions) obj << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  for (const uvec3& t : ball.triangles) obj << "f " << t.x + 1 << ' ' << t.y + 1 << ' ' << t.z + 1 << '\n';
+  write("ball.obj", obj.str());
+  const std::string object = kMaterials + "[[object]]\nmesh = \"ball.obj\"\nmaterial = \"glass\"\n";
+  const Scene scene =
+      load(object + "vertices = 1500\n" + "[[object]]\nmesh = \"ball.obj\"\nmaterial = \"glass\"\n" +
+           "[[object]]\nmesh = \"ball.obj\"\nmaterial = \"glass\"\nvertices = 100000\n");
+  EXPECT_EQ(scene.meshes[0].positions.size(), 1500u);
+  EXPECT_EQ(scene.meshes[1].positions.size(), ball.positions.size());
+  EXPECT_EQ(scene.meshes[2].positions.size(), ball.positions.size());
+  EXPECT_TRUE(scene.meshes[0].isClosed);
+  const MeshTopology topology = meshTopology(scene.meshes[0]);
+  EXPECT_NEAR(topology.signedVolume, 4.18879, 4.18879 * 0.01);
+  for (std::size_t i = 0; i < 1500; ++i)
+    EXPECT_GT(dot(scene.meshes[0].normals[i], scene.meshes[0].positions[i]), 0.99f);
+  // A third face on an edge.
+  write("fin.obj", kTetrahedron + "v 1 1 1\nf 1 2 5\n");
+  expectError(kMaterials + "[[object]]\nmesh = \"fin.obj\"\nmaterial = \"glass\"\nvertices = 4\n",
+              {"scene.toml:10", "object 1", "more than two faces"});
+  expectError(object + "vertices = 3\n", {"vertices", "4"});
 }
 
 TEST_F(SceneFile, WaterMovesWithTime) {

@@ -8,6 +8,7 @@
 #include "scene/gltf.h"
 #include "scene/mesh_checks.h"
 #include "scene/mesh_file.h"
+#include "scene/mesh_simplify.h"
 #include "scene/scene_toml.h"
 
 namespace nephroid {
@@ -15,6 +16,8 @@ namespace {
 
 constexpr Range kIor{0.1, 10};
 constexpr Range kAbbe{1, 10000};
+constexpr double kMostVertices = 4e6;
+constexpr double kVertexSlack = 1.1;
 
 Material readDielectric(TomlTable& table) {
   Material material;
@@ -160,11 +163,17 @@ class ObjectReader {
   uint32_t meshFrom(TomlTable& table) {
     const std::string name = table.requiredText("mesh");
     const auto path = findModel(name, scene_.file.parent_path(), table.at("mesh"));
-    const auto known = meshOfFile_.find(path);
+    const auto vertices = static_cast<uint32_t>(table.integer("vertices", {4, kMostVertices}).value_or(0));
+    const auto known = meshOfFile_.find({path, vertices});
     if (known != meshOfFile_.end()) return known->second;
     Mesh mesh = loadMeshFile(path);
     mesh.name = name;
-    return meshOfFile_[path] = added(std::move(mesh));
+    if (vertices > 0) mesh = simplified(mesh, vertices, table.at("vertices"));
+    if (vertices > 0 && mesh.positions.size() > kVertexSlack * vertices) {
+      table.fail("vertices", "is too few: the mesh cannot be simplified to less than " +
+                                 std::to_string(mesh.positions.size()));
+    }
+    return meshOfFile_[{path, vertices}] = added(std::move(mesh));
   }
 
   // The names of what is imported begin with the object's.
@@ -184,7 +193,7 @@ class ObjectReader {
   }
 
   Scene& scene_;
-  std::map<std::filesystem::path, uint32_t> meshOfFile_;
+  std::map<std::pair<std::filesystem::path, uint32_t>, uint32_t> meshOfFile_;  // by file and "vertices"
 };
 
 }  // namespace
