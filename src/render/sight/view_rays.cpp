@@ -10,6 +10,7 @@
 
 #include "optics/curved_triangle.h"
 #include "optics/refraction.h"
+#include "scene/mesh_checks.h"
 
 namespace nephroid {
 namespace {
@@ -18,6 +19,10 @@ constexpr std::size_t kBlock = 256;         // triangles that one task looks at
 constexpr float kSmallestSide = 2.5f;       // pixels: shorter ones are not cut
 constexpr float kLongestStraightSide = 12;  // pixels: between nearer vertices rays are taken as they are
 constexpr uint32_t kMostCuts = 8;
+// Rays that differ by more go different ways: in direction, and, as parts of the caster's size, in where they
+// leave it.
+constexpr float kMostTurn = 0.35f;
+constexpr float kMostShift = 0.1f;
 constexpr float kInset = 1e-3f;  // rays of a cut triangle start this part of the way toward its middle
 
 struct Corner {
@@ -46,9 +51,9 @@ bool isLost(const OutgoingRay& ray) {
 // Cuts one triangle of the mesh where its rays part.
 class Cutter {
  public:
-  Cutter(const TransportSource& sourceToAsk, const TransportQuery& queryOf, float pixel, bool curved,
-         uint32_t patchOf, const Triangle& whole)
-      : source(sourceToAsk), query(queryOf), pixelAngle(pixel), isCurved(curved), patch(patchOf) {
+  Cutter(const TransportSource& sourceToAsk, const TransportQuery& queryOf, float pixel, float sizeOfCaster,
+         bool curved, const Triangle& whole)
+      : source(sourceToAsk), query(queryOf), pixelAngle(pixel), size(sizeOfCaster), isCurved(curved) {
     for (int i = 0; i < 3; ++i) {
       positions[i] = whole[std::size_t(i)].position;
       normals[i] = whole[std::size_t(i)].normal;
@@ -56,8 +61,7 @@ class Cutter {
     geometricNormal = normalize(cross(positions[1] - positions[0], positions[2] - positions[0]));
   }
 
-  void add(Triangle triangle, std::vector<Triangle>& pieces) const {
-    for (Corner& corner : triangle) corner = at(corner.weights, vec3(1 / 3.0f));
+  void add(const Triangle& triangle, std::vector<Triangle>& pieces) const {
     refine(triangle, kMostCuts, pieces);
   }
 
@@ -69,7 +73,6 @@ class Cutter {
     if (isCurved) point.position += curvedOffset(point.flatPosition, inside, positions, normals);
     point.normal = normalize(normals * inside);
     point.geometricNormal = geometricNormal;
-    point.patch = patch;
     return {weights, positions * weights, normalize(normals * weights), source.rayAt(query, point)};
   }
 
@@ -78,8 +81,26 @@ class Cutter {
     return distance(a.position, b.position) / (pixelAngle * std::max(distance(a.position, eye), 1e-6f));
   }
 
-  static bool sameWay(const Corner& a, const Corner& b) {
-    return isLost(a.ray) == isLost(b.ray) && (isLost(a.ray) || a.ray.signature == b.ray.signature);
+  // By where they go: rays of a table and traced ones have no signatures in common.
+  bool sameWay(const Corner& a, const Corner& b) const {
+    return !isLost(a.ray) && !isLost(b.ray) && distance(a.ray.direction, b.ray.direction) < kMostTurn &&
+           distance(a.ray.position, b.ray.position) < kMostShift * size;
+  }
+
+  // Rays go evenly along a short side whose ends go the same way.
+  Corner between(const Triangle& t, std::size_t side) const {
+    const Corner &a = t[side], &b = t[(side + 1) % 3];
+    const vec3 weights = 0.5f * (a.weights + b.weights);
+    if (!sameWay(a, b) || pixels(a, b) > kLongestStraightSide)
+      return at(weights, (t[0].weights + t[1].weights + t[2].weights) / 3.0f);
+    Corner middle{weights, positions * weights, normalize(normals * weights), a.ray};
+    middle.ray.position = 0.5f * (a.ray.position + b.ray.position);
+    middle.ray.direction = normalize(a.ray.direction + b.ray.direction);
+    middle.ray.transmittance = 0.5f * (a.ray.transmittance + b.ray.transmittance);
+    middle.ray.reach = std::max(a.ray.reach, b.ray.reach) < kUnboundedReach
+                           ? 0.5f * (a.ray.reach + b.ray.reach)
+                           : kUnboundedReach;
+    return middle;
   }
 
   // Whether the ray at a side's middle is off the mean of those at its ends.
@@ -92,14 +113,12 @@ class Cutter {
 
   void refine(const Triangle& t, uint32_t cuts, std::vector<Triangle>& pieces) const {
     const float longest = std::max({pixels(t[0], t[1]), pixels(t[1], t[2]), pixels(t[2], t[0])});
-    const bool isSteady = sameWay(t[0], t[1]) && sameWay(t[0], t[2]);
+    const bool isSteady = sameWay(t[0], t[1]) && sameWay(t[0], t[2]) && sameWay(t[1], t[2]);
     if (cuts == 0 || longest < (isSteady ? kLongestStraightSide : kSmallestSide)) {
       pieces.push_back(isSteady ? t : ofOneRay(t));
       return;
     }
-    const vec3 center = (t[0].weights + t[1].weights + t[2].weights) / 3.0f;
-    Triangle m;
-    for (std::size_t i = 0; i < 3; ++i) m[i] = at(0.5f * (t[i].weights + t[(i + 1) % 3].weights), center);
+    const Triangle m{between(t, 0), between(t, 1), between(t, 2)};
     if (isSteady && !bends(t[0], t[1], m[0]) && !bends(t[1], t[2], m[1]) && !bends(t[2], t[0], m[2])) {
       pieces.push_back(t);
       return;
@@ -120,8 +139,8 @@ class Cutter {
   const TransportSource& source;
   const TransportQuery& query;
   const float pixelAngle;
+  const float size;  // m
   const bool isCurved;
-  const uint32_t patch;
   mat3 positions{1}, normals{1};
   vec3 geometricNormal{0};
 };
@@ -182,6 +201,11 @@ class Collector {
     return facing * dot(across, query.emitter.position - a) > 0;
   }
 
+  // By the caster itself, as far as the source can tell.
+  bool isHidden(const uvec3& t) const {
+    return (rays[t.x].flags & rays[t.y].flags & rays[t.z].flags & kRayOccluded) != 0;
+  }
+
   static bool isSteady(const Triangle& t) {
     return !isLost(t[0].ray) && !isLost(t[1].ray) && !isLost(t[2].ray) &&
            t[0].ray.signature == t[1].ray.signature && t[0].ray.signature == t[2].ray.signature;
@@ -214,14 +238,13 @@ class Collector {
       block.indices.insert(block.indices.end(), {t.x, t.y, t.z});
       return;
     }
-    const Triangle ofRim = upToRim(t);
-    if (!isLong(t) && isSteady(ofRim)) {
-      block.pieces.push_back(ofRim);
+    Triangle whole = upToRim(t);
+    if (!isLong(t) && (isSteady(whole) || isHidden(t))) {
+      block.pieces.push_back(whole);
       return;
     }
-    Triangle whole{corners[t.x], corners[t.y], corners[t.z]};
     for (int i = 0; i < 3; ++i) whole[std::size_t(i)].weights = mat3(1)[i];
-    Cutter(source, query, pixelAngle, mesh.isCurved, 0, whole).add(whole, block.pieces);
+    Cutter(source, query, pixelAngle, size, mesh.isCurved, whole).add(whole, block.pieces);
   }
 
   const TransportSource& source;
@@ -230,6 +253,7 @@ class Collector {
   const Object& object;
   const Mesh& mesh;
   const float facing;  // -1 where the viewer is inside the caster
+  float size = 0;      // m, of the caster
   std::vector<OutgoingRay> rays;
   std::vector<Corner> corners;
 };

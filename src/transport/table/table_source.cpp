@@ -56,9 +56,9 @@ void TableSource::meetScene(const TransportQuery& query, std::span<OutgoingRay> 
 void TableSource::completeSight(const TransportQuery& query, std::span<OutgoingRay> rays) const {
   oneapi::tbb::parallel_for(Range(0, rays.size(), 64), [&](const Range& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
-      if (rays[i].flags & kRayLost)
+      if (rays[i].flags == kRayLost)
         rays[i] = traced.vertexRay(query, uint32_t(i), 0);
-      else
+      else if (rays[i].flags == 0)
         traced.goOn(query, rays[i]);
   });
 }
