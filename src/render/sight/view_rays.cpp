@@ -16,7 +16,7 @@ namespace nephroid {
 namespace {
 
 constexpr std::size_t kBlock = 256;         // triangles that one task looks at
-constexpr float kSmallestSide = 2.5f;       // pixels: shorter ones are not cut
+constexpr float kSmallestSide = 3;          // pixels: shorter ones are not cut
 constexpr float kLongestStraightSide = 12;  // pixels: between nearer vertices rays are taken as they are
 constexpr uint32_t kMostCuts = 8;
 // Rays that differ by more go different ways: in direction, and, as parts of the caster's size, in where they
@@ -83,7 +83,8 @@ class Cutter {
 
   // By where they go: rays of a table and traced ones have no signatures in common.
   bool sameWay(const Corner& a, const Corner& b) const {
-    return !isLost(a.ray) && !isLost(b.ray) && distance(a.ray.direction, b.ray.direction) < kMostTurn &&
+    if (isLost(a.ray) || isLost(b.ray)) return isLost(a.ray) && isLost(b.ray);
+    return distance(a.ray.direction, b.ray.direction) < kMostTurn &&
            distance(a.ray.position, b.ray.position) < kMostShift * size;
   }
 

@@ -11,7 +11,7 @@
 namespace nephroid {
 
 // Triangles of a caster's surface on the side of the viewer. Those whose corners look different ways are cut
-// until they are about as small as a pixel.
+// until they are a few pixels small.
 struct SightMesh {
   std::vector<SightVertex> vertices;
   std::vector<uint32_t> indices;
