@@ -7,8 +7,8 @@
 #include "scene/framing.h"
 #include "scene/gltf.h"
 #include "scene/mesh_checks.h"
+#include "scene/mesh_density.h"
 #include "scene/mesh_file.h"
-#include "scene/mesh_simplify.h"
 #include "scene/scene_toml.h"
 
 namespace nephroid {
@@ -168,7 +168,7 @@ class ObjectReader {
     if (known != meshOfFile_.end()) return known->second;
     Mesh mesh = loadMeshFile(path);
     mesh.name = name;
-    if (vertices > 0) mesh = simplified(mesh, vertices, table.at("vertices"));
+    if (vertices > 0) mesh = withVertices(mesh, vertices, table.at("vertices"));
     if (vertices > 0 && mesh.positions.size() > kVertexSlack * vertices) {
       table.fail("vertices", "is too few: the mesh cannot be simplified to less than " +
                                  std::to_string(mesh.positions.size()));
