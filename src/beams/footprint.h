@@ -49,6 +49,12 @@ struct TriangleRow {
   float last;
 };
 
+// y against x, where there is x against y.
+SHARED_FUNCTION vec3 inverseSlopesOf(vec3 slopes) {
+  return vec3(slopes.x != 0.0f ? 1.0f / slopes.x : 0.0f, slopes.y != 0.0f ? 1.0f / slopes.y : 0.0f,
+              slopes.z != 0.0f ? 1.0f / slopes.z : 0.0f);
+}
+
 // x against y along the sides ab, bc and ca.
 SHARED_FUNCTION vec3 sideSlopes(vec2 a, vec2 b, vec2 c) {
   vec3 width = vec3(b.x - a.x, c.x - b.x, a.x - c.x);
@@ -85,18 +91,19 @@ SHARED_FUNCTION TriangleRow triangleInRow(vec2 a, vec2 b, vec2 c, vec3 slopes, f
 }
 
 // Integral over dy, along a side within the row, of how far it lies right of the column's left side (0 to 1).
-SHARED_FUNCTION float sideCoverage(vec3 side, float column) {
+SHARED_FUNCTION float sideCoverage(vec3 side, float inverseSlope, float column) {
   float x0 = side.x - column;
   float x1 = side.y - column;
-  float width = x1 - x0;
-  float mean = abs(width) < 1e-2f ? clamp(0.5f * (x0 + x1), 0.0f, 1.0f)
-                                  : (clampedIntegral(x1) - clampedIntegral(x0)) / width;
-  return mean * side.z;
+  // The second is the mean times side.z, which over the width is the inverse slope.
+  return abs(x1 - x0) < 1e-2f ? clamp(0.5f * (x0 + x1), 0.0f, 1.0f) * side.z
+                              : (clampedIntegral(x1) - clampedIntegral(x0)) * inverseSlope;
 }
 
-// Texels squared of the triangle that lie in the row's texel from `column` to `column` + 1.
-SHARED_FUNCTION float triangleCoverage(TriangleRow row, float column) {
-  return abs(sideCoverage(row.ab, column) + sideCoverage(row.bc, column) + sideCoverage(row.ca, column));
+// Texels squared of the triangle that lie in the row's texel from `column` to `column` + 1. `inverseSlopes`
+// are of those of sideSlopes, and anything where these are zero.
+SHARED_FUNCTION float triangleCoverage(TriangleRow row, vec3 inverseSlopes, float column) {
+  return abs(sideCoverage(row.ab, inverseSlopes.x, column) + sideCoverage(row.bc, inverseSlopes.y, column) +
+             sideCoverage(row.ca, inverseSlopes.z, column));
 }
 
 // Moves a footprint's corners to where float has digits to share it out with: texel t of the grid becomes t -
@@ -155,6 +162,18 @@ SHARED_FUNCTION float sortSliver(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c) {
 SHARED_FUNCTION float tentBefore(float s, float peak) {
   if (s <= peak) return peak > 0.0f ? s * s / peak : 0.0f;
   return 1.0f - (1.0f - s) * (1.0f - s) / (1.0f - peak);
+}
+
+// Where along a line (0 at its start, 1 at its end) it lies in the slab from `low` to `low` + 1, by its
+// coordinate across the slab: `start`, and `along` from end to end. Slabs side by side share the line out
+// without gap or overlap. Empty (first > last) where it is never there.
+SHARED_FUNCTION vec2 lineInSlab(float start, float along, float low) {
+  bool isInside = floor(start) == low;
+  float a = (low - start) / along;
+  float b = (low + 1.0f - start) / along;
+  if (along == 0.0f) a = isInside ? 0.0f : 1.0f;
+  if (along == 0.0f) b = isInside ? 1.0f : 1.0f;
+  return vec2(min(a, b), max(a, b));
 }
 
 SHARED_END

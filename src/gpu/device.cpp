@@ -89,6 +89,17 @@ std::optional<uint32_t> findQueueFamily(VkPhysicalDevice device, uint32_t* times
   return std::nullopt;
 }
 
+bool canShuffleInSubgroups(VkPhysicalDevice device) {
+  auto subgroups =
+      structure<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
+  auto properties = structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
+  properties.pNext = &subgroups;
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  constexpr VkSubgroupFeatureFlags kWanted = VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+  return (subgroups.supportedOperations & kWanted) == kWanted &&
+         (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+}
+
 std::vector<std::string> missingFrom(VkPhysicalDevice device, uint32_t apiVersion) {
   if (apiVersion < VK_API_VERSION_1_3) return {"Vulkan 1.3"};
   std::vector<std::string> missing;
@@ -98,6 +109,8 @@ std::vector<std::string> missingFrom(VkPhysicalDevice device, uint32_t apiVersio
     if (!*value) missing.emplace_back(name);
   if (!hasDeviceExtension(device, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME))
     missing.emplace_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+  if (!canShuffleInSubgroups(device))
+    missing.emplace_back("ballots and shuffles in subgroups of compute shaders");
   uint32_t timestampBits = 0;
   if (!findQueueFamily(device, &timestampBits)) missing.emplace_back("a queue for graphics and compute");
   return missing;

@@ -4,11 +4,14 @@
 // receivers is bent, within half the distance to its neighbours, onto what the virtual camera sees: light is then left where it
 // arrives, and nothing is smeared between planes.
 //
-// The threads that share a beam stand in a block that moves over its footprint, a texel a thread: whatever their triangles' sizes
-// and shapes, neighbouring threads go the same way.
+// Each thread of a subgroup finds where one beam falls; then all of them, as a block a texel a thread, move over one beam's footprint
+// after the other. Loops ask at their end: a software device passes once through all that stands in one, whether it has threads
+// for it or not.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #include "techniques/illumination_textures/shader_data.h"
 
 #include "techniques/illumination_textures/receiver_normal.glsl.h"
@@ -17,193 +20,296 @@ layout(constant_id = 0) const uint kChannels = 3;
 layout(constant_id = 1) const uint kFollowsReceivers = 1;
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Constants { DepositConstants constants; };
-layout(set = 0, binding = 0) uniform texture2DArray seenDepths;  // by the virtual camera, a layer a window
+layout(set = 0, binding = 0) uniform texture2DArray seenDepths;    // by the virtual camera, a layer a window
+layout(set = 0, binding = 1) uniform utexture2DArray seenNormals;  // as receiver_normal.glsl.h packs them
+layout(set = 0, binding = 2, r32ui) uniform uimage2DArray textures;
 
-const uint kBlockWidth = 4;
-const uint kBlockHeight = kThreadsOfBeam / kBlockWidth;
+// A corner ray in the virtual camera's frame: metres along axisU, axisV and axisW.
+struct Ray {
+  vec3 start;
+  vec3 direction;  // unit
+};
 
-uint thread;        // among those of the beam
-uint firstTexel;    // of the plane in the textures, in texels
-vec2 slopes;        // m along axisU and axisV that the beam goes for each metre along axisW
-vec3 unitsOfFlux;   // of the beam, by channel
-
-// Puts a part of the beam's flux on a texel of a flat plane, as the illuminance of what the virtual camera sees there; and as it
-// is on a plane that follows the receivers.
-void add(vec2 place, float part) {
-  const uint side = constants.set.textureSize;
-  if (any(lessThan(place, vec2(0))) || any(greaterThanEqual(place, vec2(side)))) return;
-  const uint texel = uint(place.y) * side + uint(place.x);
-  vec3 units = unitsOfFlux * part;
-  if (kFollowsReceivers == 0) {
-    const vec3 normal = unpackedNormal(constants.normals.word[texel]);
-    // The beam's angle with the surface over that with the plane, as cosines.
-    units *= max(normal.z - dot(slopes, normal.xy), 0) * inversesqrt(dot(normal, normal));
-  }
-  units += 0.5;
-  const uint word = (firstTexel + texel) * kChannels;
-  for (uint c = 0; c < kChannels; ++c)
-    if (units[c] >= 1.0) atomicAdd(constants.textures.units[word + c], uint(units[c]));
+Ray rayOf(vec3 position, vec3 direction) {
+  const mat3 axes = mat3(constants.set.axisU, constants.set.axisV, constants.set.axisW);
+  return Ray(position * axes, direction * axes);
 }
 
-// Shares out the flux on texels along a line.
-void addLine(vec2 a, vec2 c, float peak, int first, int steps, float whole) {
-  for (int i = first; i < steps; i += int(kThreadsOfBeam)) {
-    const float part = tentBefore(float(i + 1) / float(steps), peak) - tentBefore(float(i) / float(steps), peak);
-    add(floor(a + ((float(i) + 0.5) / float(steps)) * (c - a)), whole * part);
-  }
+// m along the ray.
+float distanceToDepth(Ray ray, float depth) { return (depth - ray.start.z) / max(ray.direction.z, 1e-4); }
+
+vec3 pointAtDepth(Ray ray, float depth) { return ray.start + distanceToDepth(ray, depth) * ray.direction; }
+
+// Depth at which the ray meets what the virtual camera sees: again and again the tangent plane of what is seen next to where the ray
+// is by now. One step is exact on a flat receiver.
+float receiverDepth(Ray ray) {
+  const PlaneSet set = constants.set;
+  const float range = set.farthestDepth - set.nearestDepth;
+  const float nearest = max(distanceToDepth(ray, set.nearestDepth), 0), farthest = distanceToDepth(ray, set.farthestDepth);
+  float distance = clamp(distanceToDepth(ray, set.firstDepth + 0.5 * float(set.planes - 1) * set.depthStep), nearest, farthest);
+  float toSeen = distance;  // to the last tangent plane of what was seen
+  int step = 0;
+  bool isSeen, isThere;
+  do {
+    const vec3 point = ray.start + distance * ray.direction;
+    uint window = 0;
+    vec2 place = texelOfWindow(set.windows[0], point.xy);
+    if (any(lessThan(place, vec2(0))) || any(greaterThanEqual(place, vec2(set.windows[0].size)))) {
+      window = 1;
+      place = texelOfWindow(set.windows[1], point.xy);
+    }
+    const float metresPerTexel = 1 / set.windows[window].texelsPerMetre;
+    const vec2 texel = clamp(floor(place), vec2(0), vec2(set.windows[window].size - 1));
+    const float seen = texelFetch(seenDepths, ivec3(texel, window), 0).r;
+    const vec3 normal = unpackedNormal(texelFetch(seenNormals, ivec3(texel, window), 0).r);
+    const float seenDepth = set.nearestDepth + seen * range;
+    // How far the ray stands from the tangent plane, and how fast it comes nearer.
+    const float ahead = (seenDepth - point.z) * normal.z + dot((place - texel - 0.5) * metresPerTexel, normal.xy);
+    const float approach = ray.direction.z * normal.z - dot(ray.direction.xy, normal.xy);
+    const float toPlane = approach > 0.1 * ray.direction.z * normal.z ? distance + ahead / approach : distanceToDepth(ray, seenDepth);
+    isSeen = seen < 1;
+    if (isSeen) toSeen = clamp(toPlane, nearest, farthest);
+    isThere = isSeen && abs(toSeen - distance) < 1e-4 * metresPerTexel;
+    // Past the receivers' edge, or the window's: they are nearer to where the ray comes from.
+    distance = isSeen ? toSeen : 0.5 * (distance + nearest);
+  } while (!isThere && ++step < 4);
+  // A ray that passes a receiver by goes as far as the others of its beam.
+  return ray.start.z + (isSeen ? distance : toSeen) * ray.direction.z;
 }
 
-void addTriangle(vec2 a, vec2 b, vec2 c, vec2 base, vec2 lower, vec2 upper) {
-  const float perArea = 2.0 / abs(doubledArea(a, b, c));
-  const vec3 slopesOfSides = sideSlopes(a, b, c);
-  const vec2 last = min(upper, vec2(constants.set.textureSize) - 1);
-  for (float y = max(lower.y, 0) + float(thread / kBlockWidth); y <= last.y; y += float(kBlockHeight)) {
-    const TriangleRow row = triangleInRow(a, b, c, slopesOfSides, y - base.y);
-    const float lastX = min(floor(row.last) + base.x, last.x);
-    for (float x = max(floor(row.first) + base.x, 0) + float(thread % kBlockWidth); x <= lastX; x += float(kBlockWidth))
-      add(vec2(x, y), triangleCoverage(row, x - base.x) * perArea);
-  }
+// Where a beam's corners are, m along the axes, on a plane or next to it.
+struct Crossing {
+  vec3 a, b, c;
+  float part;  // of the beam's flux that comes so far
+};
+
+Crossing crossingAt(Ray rays[3], vec3 depths) {
+  vec3 distances;
+  for (int i = 0; i < 3; ++i) distances[i] = distanceToDepth(rays[i], depths[i]);
+  const vec3 meets = vec3(greaterThanEqual(distances, vec3(-1e-6)));
+  distances = max(distances, vec3(0));
+  Crossing crossing;
+  crossing.a = rays[0].start + distances.x * rays[0].direction;
+  crossing.b = rays[1].start + distances.y * rays[1].direction;
+  crossing.c = rays[2].start + distances.z * rays[2].direction;
+  crossing.part = dot(meets, vec3(1.0 / 3.0));
+  return crossing;
 }
 
-// Where a beam meets a plane, in texels.
+// How far a plane reaches that follows the receivers, m to either side: half the way to its neighbours, and a little more because
+// neighbouring texels may be asked for that lie past the border.
+float reachOf(uint window) { return 0.5 * constants.set.depthStep + 3 / constants.set.windows[window].texelsPerMetre; }
+
+// `arrivals` are depths on the receivers.
+Crossing crossingOf(Ray rays[3], vec3 arrivals, uint plane, uint window) {
+  const PlaneSet set = constants.set;
+  vec3 depths = vec3(set.firstDepth + float(plane) * set.depthStep);
+  if (kFollowsReceivers != 0) {
+    // The first and the last plane have all that lies before and beyond.
+    const float low = plane == 0 ? set.nearestDepth : depths.x - reachOf(window);
+    const float high = plane == set.planes - 1 ? set.farthestDepth : depths.x + reachOf(window);
+    depths = clamp(arrivals, low, high);
+  }
+  return crossingAt(rays, depths);
+}
+
+float least(vec3 v) { return min(min(v.x, v.y), v.z); }
+float most(vec3 v) { return max(max(v.x, v.y), v.z); }
+
+// The first plane that a beam leaves light on, and how many.
+uvec2 planesOf(vec3 arrivals, uint window) {
+  const PlaneSet set = constants.set;
+  const float last = float(set.planes - 1);
+  if (kFollowsReceivers == 0 || set.depthStep == 0) return uvec2(0, set.planes);
+  const float first = clamp(ceil((least(arrivals) - reachOf(window) - set.firstDepth) / set.depthStep), 0, last);
+  return uvec2(first, clamp(floor((most(arrivals) + reachOf(window) - set.firstDepth) / set.depthStep), 0, last) - first + 1);
+}
+
+// Whether all that the outer window is asked for lies off this beam: the inner one answers there, down to one and a half of the outer
+// one's texels from its borders. Corner rays are straight: what is inside at both ends is so between them.
+bool isInsideInnerWindow(Ray rays[3], vec3 arrivals) {
+  const PlaneSet set = constants.set;
+  const Window window = set.windows[0];
+  const float border = 1 + 2 * window.texelsPerMetre / set.windows[1].texelsPerMetre;
+  vec2 ends = vec2(least(arrivals), most(arrivals));
+  if (kFollowsReceivers == 0) ends = set.firstDepth + vec2(0, float(set.planes - 1) * set.depthStep);
+  vec2 lower = vec2(1e30), upper = vec2(-1e30);
+  for (int i = 0; i < 3; ++i)
+    for (int end = 0; end < 2; ++end) {
+      const vec2 place = texelOfWindow(window, pointAtDepth(rays[i], ends[end]).xy);
+      lower = min(lower, place);
+      upper = max(upper, place);
+    }
+  return all(greaterThan(lower, vec2(border))) && all(lessThan(upper, vec2(window.size - border)));
+}
+
+// What a beam leaves on a plane. Corners are as centerFootprint leaves them, in texels from `base`; of a line a and c are its ends.
 struct Footprint {
   vec2 a, b, c;
-  bvec3 meets;  // does the corner
+  vec2 base;
+  vec2 lower, upper;  // the first and the last texel of the window that it may touch
+  vec3 slopes;        // of a line x is where along it its peak lies
+  float perArea;      // of the flux in a texel squared; 0 for a line
 };
 
-bool isInWindow(Footprint print) {
-  const vec2 end = vec2(constants.set.textureSize);
-  const vec2 lower = min(min(print.a, print.b), print.c), upper = max(max(print.a, print.b), print.c);
-  return any(print.meets) && all(greaterThanEqual(upper, vec2(0))) && all(lessThan(lower, end));
-}
-
-// What falls on few texels is shared out as a line is: `add` stands in two places only, because the threads of a software device
-// pass through all of them, whether they have anything to add there or not.
-void addFootprint(Footprint print) {
-  vec2 a = print.a, b = print.b, c = print.c, base;
-  const vec2 lower = floor(min(min(a, b), c));
-  const vec2 upper = floor(max(max(a, b), c));
-  vec2 localA = a, localB = b, localC = c;
-  centerFootprint(localA, localB, localC, base);
-  float peak = 0.5, whole = 1;
-  int first = int(thread), steps = 0;
-  bool isLine = true;
-  if (!all(print.meets)) {  // a third to each corner that is there
-    a = c = thread == 0 ? a : thread == 1 ? b : c;
-    steps = (thread == 0 ? print.meets.x : thread == 1 ? print.meets.y : thread == 2 && print.meets.z) ? 1 : 0;
-    first = 0;
-    whole = 1.0 / 3.0;
-  } else if (lower == upper) {
-    steps = 1;
-  } else if (isSliver(localA, localB, localC)) {
-    peak = sortSliver(a, b, c);
-    steps = sliverSteps(a, c);
-  } else {
-    isLine = false;
+Footprint footprintOf(Crossing crossing, uint window) {
+  const Window w = constants.set.windows[window];
+  vec2 a = texelOfWindow(w, crossing.a.xy), b = texelOfWindow(w, crossing.b.xy), c = texelOfWindow(w, crossing.c.xy);
+  Footprint print;
+  print.lower = floor(min(min(a, b), c));
+  print.upper = floor(max(max(a, b), c));
+  print.a = a;
+  print.b = b;
+  print.c = c;
+  centerFootprint(print.a, print.b, print.c, print.base);
+  print.slopes = sideSlopes(print.a, print.b, print.c);
+  print.perArea = 2 / max(abs(doubledArea(print.a, print.b, print.c)), 1e-20);
+  if (print.lower == print.upper || isSliver(print.a, print.b, print.c)) {
+    print.slopes.x = sortSliver(a, b, c);
+    print.base = print.lower;
+    print.a = a - print.base;
+    print.c = c - print.base;
+    print.perArea = 0;
   }
-  addLine(a, c, peak, first, steps, whole);
-  if (!isLine) addTriangle(localA, localB, localC, base, lower, upper);
+  print.lower = max(print.lower, vec2(0));
+  print.upper = min(print.upper, vec2(w.size - 1));
+  return print;
 }
 
-// A corner ray in the virtual camera's frame: texels across, metres along axisW.
-struct Line {
-  vec2 start;
-  float startDepth;
-  vec2 slope;  // texels a metre
-  bool meets;  // planes beyond its start
+// From the thread that found it to all.
+Footprint shuffled(Footprint print, uint thread) {
+  return Footprint(subgroupShuffle(print.a, thread), subgroupShuffle(print.b, thread), subgroupShuffle(print.c, thread),
+                   subgroupShuffle(print.base, thread), subgroupShuffle(print.lower, thread), subgroupShuffle(print.upper, thread),
+                   subgroupShuffle(print.slopes, thread), subgroupShuffle(print.perArea, thread));
+}
+
+// The texture of a plane, and the beam whose light it takes.
+struct Target {
+  uint window;
+  uint plane;
+  vec3 units;   // of flux, by channel
+  vec2 slopes;  // m along axisU and axisV that the beam goes for each metre along axisW
 };
 
-Line lineOf(vec3 position, vec3 direction) {
-  const PlaneSet set = constants.set;
-  const float approach = dot(direction, set.axisW);
-  Line line;
-  line.start = windowTexel(set, constants.window, position);
-  line.startDepth = dot(position, set.axisW);
-  line.meets = approach > 1e-4;
-  line.slope = vec2(dot(direction, set.axisU), dot(direction, set.axisV)) *
-               (set.windows[constants.window].texelsPerMetre / max(approach, 1e-4));
-  return line;
+Target shuffled(Target target, uint thread) {
+  return Target(subgroupShuffle(target.window, thread), subgroupShuffle(target.plane, thread), subgroupShuffle(target.units, thread),
+                subgroupShuffle(target.slopes, thread));
 }
 
-vec2 placeAt(Line line, float depth) { return line.start + (depth - line.startDepth) * line.slope; }
-
-// Depth at which the line meets what the virtual camera sees: again and again the tangent plane of what is seen next to where
-// the line is by now. One step is exact on a flat receiver.
-float receiverDepth(Line line) {
-  const PlaneSet set = constants.set;
-  const float texelsPerMetre = set.windows[constants.window].texelsPerMetre;
-  const float range = set.farthestDepth - set.nearestDepth;
-  float depth = max(set.firstDepth + 0.5 * float(set.planes - 1) * set.depthStep, line.startDepth);
-  for (int step = 0; step < 4; ++step) {
-    const vec2 place = placeAt(line, depth);
-    const vec2 texel = clamp(floor(place), vec2(0), vec2(set.textureSize - 1));
-    const float seen = texelFetch(seenDepths, ivec3(texel, constants.window), 0).r;
-    if (seen >= 1) {  // past the receivers' edge, or the window's: they are nearer to where the line comes from
-      depth = 0.5 * (depth + max(set.nearestDepth, line.startDepth));
-      continue;
-    }
-    const float seenDepth = set.nearestDepth + seen * range;
-    const vec3 normal = unpackedNormal(constants.normals.word[uint(texel.y) * set.textureSize + uint(texel.x)]);
-    // Where the line stands over the tangent plane, and how fast it comes nearer.
-    const float ahead = seenDepth * normal.z + dot((place - texel - 0.5) / texelsPerMetre, normal.xy) - depth * normal.z;
-    const float approach = normal.z - dot(line.slope / texelsPerMetre, normal.xy);
-    const float before = depth;
-    depth = approach > 0.1 * normal.z ? depth + ahead / approach : seenDepth;
-    depth = clamp(depth, max(set.nearestDepth, line.startDepth), set.farthestDepth);
-    if (abs(depth - before) * texelsPerMetre < 1e-4) break;
+// Puts a part of the beam's flux on a texel of a flat plane, as the illuminance of what the virtual camera sees there; and as it is
+// on a plane that follows the receivers.
+void add(vec2 texel, float part, Target target) {
+  vec3 units = part * target.units;
+  if (kFollowsReceivers == 0) {
+    const vec3 normal = unpackedNormal(texelFetch(seenNormals, ivec3(texel, target.window), 0).r);
+    // The beam's angle with the surface over that with the plane, as cosines.
+    units *= max(normal.z - dot(target.slopes, normal.xy), 0) * inversesqrt(dot(normal, normal));
   }
-  return depth;
+  units += 0.5;
+  const uint layer = textureLayer(constants.set, target.plane, target.window, kChannels);
+  for (uint c = 0; c < kChannels; ++c)
+    if (units[c] >= 1.0) imageAtomicAdd(textures, ivec3(texel, layer + c), uint(units[c]));
 }
 
-bool meetsAt(Line line, float depth) { return line.meets && depth >= line.startDepth; }
+// The threads at work in a subgroup stand in a block.
+struct Block {
+  uvec2 size;
+  uvec2 place;  // of this thread
+};
 
-Footprint footprintAt(Line lines[3], vec3 depths) {
-  return Footprint(placeAt(lines[0], depths.x), placeAt(lines[1], depths.y), placeAt(lines[2], depths.z),
-                   bvec3(meetsAt(lines[0], depths.x), meetsAt(lines[1], depths.y), meetsAt(lines[2], depths.z)));
+Block blockOfSubgroup() {
+  const uvec4 threads = subgroupBallot(true);
+  const uint count = subgroupBallotBitCount(threads);
+  const uint width = 1u << ((uint(findMSB(count)) + 1) / 2);
+  const uint thread = subgroupBallotExclusiveBitCount(threads);
+  return Block(uvec2(width, count / width), uvec2(thread % width, thread / width));
+}
+
+// Shares out a line's flux. Texels are clipped against it side by side: nothing is left out between them.
+void addLine(Footprint print, Target target, Block block) {
+  const vec2 along = print.c - print.a;
+  float y = print.lower.y + float(block.place.y);
+  do {
+    const vec2 row = lineInSlab(print.a.y, along.y, y - print.base.y);
+    float x = print.lower.x + float(block.place.x);
+    do {
+      const vec2 column = lineInSlab(print.a.x, along.x, x - print.base.x);
+      const vec2 ends = clamp(vec2(max(row.x, column.x), min(row.y, column.y)), 0, 1);
+      const float part = max(tentBefore(ends.y, print.slopes.x) - tentBefore(ends.x, print.slopes.x), 0);
+      if (x <= print.upper.x && y <= print.upper.y) add(vec2(x, y), part, target);
+      x += float(block.size.x);
+    } while (x <= print.upper.x);
+    y += float(block.size.y);
+  } while (y <= print.upper.y);
+}
+
+void addTriangle(Footprint print, Target target, Block block) {
+  const vec3 inverseSlopes = inverseSlopesOf(print.slopes);
+  float y = print.lower.y + float(block.place.y);
+  do {
+    const TriangleRow row = triangleInRow(print.a, print.b, print.c, print.slopes, y - print.base.y);
+    const float last = y <= print.upper.y ? min(floor(row.last) + print.base.x, print.upper.x) : -1;
+    float x = max(floor(row.first) + print.base.x, print.lower.x) + float(block.place.x);
+    do {
+      const float part = triangleCoverage(row, inverseSlopes, x - print.base.x) * print.perArea;
+      if (x <= last) add(vec2(x, y), part, target);
+      x += float(block.size.x);
+    } while (x <= last);
+    y += float(block.size.y);
+  } while (y <= print.upper.y);
 }
 
 void main() {
-  const uint index = gl_GlobalInvocationID.x / kThreadsOfBeam;
-  if (index >= constants.beamCount) return;
-  thread = gl_GlobalInvocationID.x % kThreadsOfBeam;
   const PlaneSet set = constants.set;
-  const Beam beam = constants.beams.beam[index];
-  const vec3 direction = beam.direction[0] + beam.direction[1] + beam.direction[2];
-  const float approach = dot(direction, set.axisW);
-  if (approach < kLeastApproach * length(direction)) return;
-  slopes = vec2(dot(direction, set.axisU), dot(direction, set.axisV)) / approach;
-  unitsOfFlux = beam.flux / set.luxMetresSquaredPerUnit;
-  // One channel stands for all that have light; the first may have none.
-  if (kChannels == 1) unitsOfFlux.x = max(unitsOfFlux.x, max(unitsOfFlux.y, unitsOfFlux.z));
-
-  Line lines[3];
-  vec3 arrivals = vec3(0);  // depths on the receivers
+  const Block block = blockOfSubgroup();
+  const uint index = gl_GlobalInvocationID.x;
+  const Beam beam = constants.beams.beam[min(index, constants.beamCount - 1)];
+  Ray rays[3];
+  vec3 arrivals = vec3(0);
   for (int i = 0; i < 3; ++i) {
-    lines[i] = lineOf(beam.position[i], beam.direction[i]);
-    if (kFollowsReceivers != 0) arrivals[i] = receiverDepth(lines[i]);
+    rays[i] = rayOf(beam.position[i], beam.direction[i]);
+    if (kFollowsReceivers != 0) arrivals[i] = receiverDepth(rays[i]);
   }
-  // Neighbouring texels may be asked for that lie a little past the border between two planes.
-  const float reach = 0.5 * set.depthStep + 3 / set.windows[constants.window].texelsPerMetre;
-  // On to the next plane that matters before anything is done there: neighbouring threads skip the same.
-  uint plane = 0;
-  while (plane < set.planes) {
-    Footprint print;
-    bool reaches = false;
-    for (; plane < set.planes && !reaches; ++plane) {
-      vec3 depths = vec3(set.firstDepth + float(plane) * set.depthStep);
-      reaches = true;
-      if (kFollowsReceivers != 0) {
-        // The first and the last plane have all that lies before and beyond.
-        const float low = plane == 0 ? set.nearestDepth : depths.x - reach;
-        const float high = plane == set.planes - 1 ? set.farthestDepth : depths.x + reach;
-        reaches = any(greaterThanEqual(arrivals, vec3(low))) && any(lessThanEqual(arrivals, vec3(high)));
-        depths = clamp(arrivals, low, high);
-      }
-      print = footprintAt(lines, depths);
-      reaches = reaches && isInWindow(print);
+  const vec3 direction = rays[0].direction + rays[1].direction + rays[2].direction;
+  const bool isThere = index < constants.beamCount && direction.z >= kLeastApproach * length(direction);
+  Target target;
+  target.slopes = direction.xy / direction.z;
+  target.units = beam.flux / set.luxMetresSquaredPerUnit;
+  // One channel stands for all that have light; the first may have none.
+  if (kChannels == 1) target.units.x = most(target.units);
+
+  // Planes of the inner window, then of the outer one.
+  const uvec2 inner = planesOf(arrivals, 0), outer = planesOf(arrivals, 1);
+  const uint count = !isThere ? 0 : isInsideInnerWindow(rays, arrivals) ? inner.y : inner.y + outer.y;
+  uint i = 0;
+  do {
+    target.window = i < inner.y ? 0 : 1;
+    target.plane = i < inner.y ? inner.x + i : outer.x + i - inner.y;
+    const Crossing crossing = crossingOf(rays, arrivals, target.plane, target.window);
+    const Footprint print = footprintOf(crossing, target.window);
+    Target own = target;
+    own.units *= crossing.part;
+    const bool isDrawn = i < count && crossing.part > 0 && all(lessThanEqual(print.lower, print.upper));
+    bool waits = isDrawn && print.perArea > 0;
+    uvec4 waiting = subgroupBallot(waits);
+    if (waiting != uvec4(0)) {
+      do {
+        const uint next = subgroupBallotFindLSB(waiting);
+        addTriangle(shuffled(print, next), shuffled(own, next), block);
+        waits = waits && gl_SubgroupInvocationID != next;
+        waiting = subgroupBallot(waits);
+      } while (waiting != uvec4(0));
     }
-    if (!reaches) return;
-    firstTexel = textureStart(set, plane - 1, constants.window, 1);
-    addFootprint(print);
-  }
+    waits = isDrawn && print.perArea == 0;
+    waiting = subgroupBallot(waits);
+    if (waiting != uvec4(0)) {
+      do {
+        const uint next = subgroupBallotFindLSB(waiting);
+        addLine(shuffled(print, next), shuffled(own, next), block);
+        waits = waits && gl_SubgroupInvocationID != next;
+        waiting = subgroupBallot(waits);
+      } while (waiting != uvec4(0));
+    }
+    ++i;
+  } while (subgroupBallot(i < count) != uvec4(0));
 }

@@ -22,68 +22,30 @@ namespace nephroid {
 namespace {
 
 // As many as the fewest workgroups of one dispatch that Vulkan promises can hold, at 64 threads each.
-constexpr std::size_t kMostBeamsADispatch = 65535 * 64 / kThreadsOfBeam;
+constexpr std::size_t kMostBeamsADispatch = 65535 * 64;
 
 // Light of one emitter through one caster, along one choice of reflections: it has a mean direction of its
 // own.
 struct LitCaster {
   std::vector<Beam> beams;
-  std::size_t beamsOfOuterWindow = 0;  // the first so many; the inner window holds the others on all planes
   PlaneSet planes{};
+  uint32_t channels = 3;  // of the textures: one where all beams have the same colour
 };
 
-// What the light's virtual camera sees.
-struct ReceiverView {
-  gpu::Image normals;  // as receiver_normal.glsl.h packs them
-  gpu::Image depths;   // a layer a window, 0 at nearestDepth and 1 at farthestDepth
+// The images of a set of planes.
+struct PlaneImages {
+  // What the virtual camera sees, a layer a window.
+  gpu::Image normals;   // as receiver_normal.glsl.h packs them
+  gpu::Image depths;    // 0 at nearestDepth and 1 at farthestDepth
+  gpu::Image textures;  // units of flux, layers as textureLayer has them
 };
 
-// Whether all beams have the same colour, so that one channel and a tint tell all.
-bool isOfOneColor(const std::vector<LitCaster>& lit) {
-  vec3 first(0);
-  for (const LitCaster& caster : lit)
-    for (const Beam& beam : caster.beams) {
-      if (first == vec3(0)) first = beam.flux;
-      const vec3 difference = abs(cross(beam.flux, first));
-      if (std::max({difference.x, difference.y, difference.z}) > 1e-5f * dot(beam.flux, first)) return false;
-    }
-  return true;
-}
-
-// The depths (m along axisW) at which a corner ray may leave light: flat planes, or wherever receivers are.
-vec2 depthsOfDeposit(const Beam& beam, int corner, const PlaneSet& set, bool followsReceivers) {
-  const float start = dot(beam.position[corner], set.axisW);
-  const float lastPlane = set.firstDepth + float(set.planes - 1) * set.depthStep;
-  if (!followsReceivers) return {set.firstDepth, lastPlane};
-  const float arrival = start + 1.01f * beam.reach * dot(beam.direction[corner], set.axisW);
-  return {start, std::max(start, std::min(arrival, set.farthestDepth))};
-}
-
-// Whether all that the outer window's texture is asked for lies off this beam: the inner one answers there,
-// down to one and a half of the outer one's texels from its borders. Corner rays are straight: what is inside
-// at both ends is so between them.
-bool isInsideInnerWindow(const Beam& beam, const PlaneSet& set, bool followsReceivers) {
-  const float border = 1 + 2 * set.windows[0].texelsPerMetre / set.windows[1].texelsPerMetre;
-  for (int i = 0; i < 3; ++i) {
-    const float approach = dot(beam.direction[i], set.axisW);
-    if (approach < kLeastApproach) return false;
-    const vec2 depths = depthsOfDeposit(beam, i, set, followsReceivers);
-    for (const float depth : {depths.x, depths.y}) {
-      const float distance = (depth - dot(beam.position[i], set.axisW)) / approach;  // m
-      const vec2 texel = windowTexel(set, 0, beam.position[i] + distance * beam.direction[i]);
-      if (std::min(texel.x, texel.y) <= border ||
-          std::max(texel.x, texel.y) >= float(set.textureSize) - border)
-        return false;
-    }
-  }
-  return true;
-}
-
-void putBeamsOfOuterWindowFirst(LitCaster& caster, bool followsReceivers) {
-  const auto inner = std::partition(caster.beams.begin(), caster.beams.end(), [&](const Beam& beam) {
-    return !isInsideInnerWindow(beam, caster.planes, followsReceivers);
+bool areOfOneColor(const std::vector<Beam>& beams) {
+  const vec3 first = beams.front().flux;
+  return std::ranges::all_of(beams, [&](const Beam& beam) {
+    const vec3 difference = abs(cross(beam.flux, first));
+    return std::max({difference.x, difference.y, difference.z}) <= 1e-5f * dot(beam.flux, first);
   });
-  caster.beamsOfOuterWindow = std::size_t(inner - caster.beams.begin());
 }
 
 template <class T>
@@ -92,6 +54,25 @@ void ensure(gpu::Device& device, gpu::Buffer& buffer, const char* name, std::siz
   // Half as much again, so that a caustic that grows from frame to frame does not ask for memory in each.
   if (buffer.size() < count * sizeof(T))
     buffer = gpu::createBuffer(device, name, (count + count / 2) * sizeof(T), kind);
+}
+
+// Of a window, which begins in a corner of images of `imageSize` texels along a side.
+ViewConstants viewOf(const PlaneSet& set, uint32_t window, uint32_t imageSize) {
+  const auto row = [](vec3 axis, float from, float to) {
+    return vec4(axis / (to - from), -from / (to - from));
+  };
+  const auto inImage = [&](vec3 axis, float from) {
+    const float to = from + float(imageSize) / set.windows[window].texelsPerMetre;
+    return 2.0f * row(axis, from, to) - vec4(0, 0, 0, 1);
+  };
+  ViewConstants constants{};
+  constants.toClip[0] = inImage(set.axisU, set.windows[window].corner.x);
+  constants.toClip[1] = inImage(set.axisV, set.windows[window].corner.y);
+  constants.toClip[2] = row(set.axisW, set.nearestDepth, set.farthestDepth);
+  constants.axisU = set.axisU;
+  constants.axisV = set.axisV;
+  constants.axisW = set.axisW;
+  return constants;
 }
 
 class IlluminationTextures final : public Technique {
@@ -109,14 +90,9 @@ class IlluminationTextures final : public Technique {
   std::vector<Beam> beamsOf(const Scene& scene, std::span<const BandQuery> bands,
                             const BeamSettings& settings) const;
   void upload();
+  void ensureImages(std::size_t set);
   void drawReceivers(gpu::CommandList& commands, GpuScene& gpuScene, uint32_t set);
-  void deposit(gpu::CommandList& commands, uint32_t set, uint32_t window, VkDeviceAddress ofBeams,
-               VkDeviceAddress texture);
-  VkDeviceAddress normalsOf(std::size_t set, uint32_t window) const;
-  VkDeviceSize windowBytes() const {
-    return VkDeviceSize(settings.textureSize) * settings.textureSize * sizeof(uint32_t);
-  }
-  std::size_t textureWords() const;
+  void deposit(gpu::CommandList& commands, uint32_t set, VkDeviceAddress ofBeams);
   uint32_t followsReceivers() const { return settings.interpolation == Interpolation::surface; }
 
   gpu::Device& device;
@@ -131,11 +107,10 @@ class IlluminationTextures final : public Technique {
 
   // Of the frame being made.
   std::vector<LitCaster> lit;
-  uint32_t channels = 3;
   VkDeviceSize beamBytes = 0;
-  gpu::Buffer beamUpload, beams, textures;
-  std::vector<ReceiverView> receiverViews;  // one for each lit caster
-  gpu::Buffer normals;                      // those of receiverViews, where threads read them one by one
+  gpu::Buffer beamUpload, beams;
+  std::vector<PlaneImages> images;  // one for each lit caster
+  gpu::Sampler texelSampler;
 };
 
 gpu::Program depositProgram(gpu::Device& device, const char* name, uint32_t channels,
@@ -163,7 +138,8 @@ IlluminationTextures::IlluminationTextures(const TechniqueContext& context)
       depositPrograms{depositProgram(device, "deposit", 1, followsReceivers()),
                       depositProgram(device, "deposit in color", 3, followsReceivers())},
       shadePrograms{shadeProgram(device, "caustics", 1, followsReceivers()),
-                    shadeProgram(device, "caustics in color", 3, followsReceivers())} {}
+                    shadeProgram(device, "caustics in color", 3, followsReceivers())},
+      texelSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {}
 
 std::vector<Beam> IlluminationTextures::beamsOf(const Scene& scene, std::span<const BandQuery> bands,
                                                 const BeamSettings& beamSettings) const {
@@ -211,22 +187,14 @@ void IlluminationTextures::update(GpuScene&) {
           ++last;
         LitCaster caster = light(now, std::span(queries).subspan(first, last - first), boxes);
         if (caster.planes.planes == 0) continue;
-        putBeamsOfOuterWindowFirst(caster, followsReceivers() != 0);
+        caster.channels = areOfOneColor(caster.beams) ? 1 : 3;
         beamCount += caster.beams.size();
         lit.push_back(std::move(caster));
       }
     }
   }
-  channels = isOfOneColor(lit) ? 1 : 3;
-  stats.counts = {{"beams", beamCount}, {"plane_sets", lit.size()}, {"channels", channels}};
+  stats.counts = {{"beams", beamCount}, {"plane_sets", lit.size()}};
   upload();
-}
-
-std::size_t IlluminationTextures::textureWords() const {
-  std::size_t words = 0;
-  for (const LitCaster& caster : lit)
-    words += std::size_t(textureStart(caster.planes, 0, kWindows, channels));
-  return words;
 }
 
 void IlluminationTextures::upload() {
@@ -234,52 +202,59 @@ void IlluminationTextures::upload() {
   for (const LitCaster& caster : lit) beamCount += caster.beams.size();
   ensure<Beam>(device, beamUpload, "beams to upload", beamCount, gpu::MemoryKind::upload);
   ensure<Beam>(device, beams, "beams", beamCount, gpu::MemoryKind::device);
-  ensure<uint32_t>(device, textures, "illumination textures", textureWords(), gpu::MemoryKind::device);
   beamBytes = 0;
   for (const LitCaster& caster : lit) {
     beamUpload.write(caster.beams, beamBytes);
     beamBytes += caster.beams.size() * sizeof(Beam);
   }
-  const uint32_t side = settings.textureSize;
-  ensure<uint32_t>(device, normals, "receivers' normals", lit.size() * kWindows * side * side,
-                   gpu::MemoryKind::device);
-  while (receiverViews.size() < lit.size()) {
-    gpu::ImageOptions options{
-        .format = VK_FORMAT_R32_UINT, .width = side, .height = side, .layers = kWindows};
-    gpu::Image normal = gpu::createImage(device, "receivers' normals", options);
-    options.format = VK_FORMAT_D32_SFLOAT;
-    receiverViews.push_back({std::move(normal), gpu::createImage(device, "receivers' depths", options)});
+  while (images.size() < lit.size()) images.emplace_back();
+  for (std::size_t set = 0; set < lit.size(); ++set) ensureImages(set);
+}
+
+void IlluminationTextures::ensureImages(std::size_t set) {
+  const auto image = [&](const char* name, VkFormat format, uint32_t layers) {
+    return gpu::createImage(
+        device, name,
+        {.format = format, .width = settings.textureSize, .height = settings.textureSize, .layers = layers});
+  };
+  PlaneImages& own = images[set];
+  if (!own.depths) {
+    own.normals = image("receivers' normals", VK_FORMAT_R32_UINT, kWindows);
+    own.depths = image("receivers' depths", VK_FORMAT_D32_SFLOAT, kWindows);
   }
+  const uint32_t layers = textureLayer(lit[set].planes, 0, kWindows, lit[set].channels);
+  if (own.textures.layerCount() < layers)
+    own.textures = image("illumination textures", VK_FORMAT_R32_UINT, layers);
 }
 
 void IlluminationTextures::drawReceivers(gpu::CommandList& commands, GpuScene& gpuScene, uint32_t set) {
-  const ReceiverView& view = receiverViews[set];
-  for (uint32_t window = 0; window < kWindows; ++window)
-    commands.render({.colors = {{&view.normals, window, vec4(0)}},
-                     .depth = gpu::DepthAttachment{&view.depths, window, 1.0f}},
+  const PlaneImages& own = images[set];
+  const PlaneSet& planes = lit[set].planes;
+  for (uint32_t window = 0; window < kWindows; ++window) {
+    ViewConstants constants = viewOf(planes, window, settings.textureSize);
+    constants.vertices = gpuScene.vertices();
+    constants.objects = gpuScene.objects();
+    commands.render({.colors = {{&own.normals, window, vec4(0)}},
+                     .depth = gpu::DepthAttachment{&own.depths, window, 1.0f},
+                     .region = gpu::Region{{0, 0}, uvec2(uint32_t(planes.windows[window].size))}},
                     [&] {
-                      for (const SceneDraw& draw : gpuScene.draws())
-                        if (draw.type == MaterialType::diffuse)
-                          commands.drawIndexed(receiversProgram, gpuScene.indices(), draw.range, 1,
-                                               ViewConstants{lit[set].planes, gpuScene.vertices(),
-                                                             gpuScene.objects(), draw.object, window});
+                      for (const SceneDraw& draw : gpuScene.draws()) {
+                        if (draw.type != MaterialType::diffuse) continue;
+                        constants.object = draw.object;
+                        commands.drawIndexed(receiversProgram, gpuScene.indices(), draw.range, 1, constants);
+                      }
                     });
+  }
 }
 
-// Device address of the receivers' normals in a window.
-VkDeviceAddress IlluminationTextures::normalsOf(std::size_t set, uint32_t window) const {
-  return normals.address() + (set * kWindows + window) * windowBytes();
-}
-
-void IlluminationTextures::deposit(gpu::CommandList& commands, uint32_t set, uint32_t window,
-                                   VkDeviceAddress ofBeams, VkDeviceAddress texture) {
-  const std::size_t all = window == 0 ? lit[set].beams.size() : lit[set].beamsOfOuterWindow;
+void IlluminationTextures::deposit(gpu::CommandList& commands, uint32_t set, VkDeviceAddress ofBeams) {
+  const PlaneImages& own = images[set];
+  const std::size_t all = lit[set].beams.size();
   for (std::size_t first = 0; first < all; first += kMostBeamsADispatch) {
     const auto count = uint32_t(std::min(all - first, kMostBeamsADispatch));
-    commands.dispatch(depositPrograms[channels == 3], {count * kThreadsOfBeam, 1, 1},
-                      DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam),
-                                       normalsOf(set, window), texture, count, window},
-                      {receiverViews[set].depths});
+    commands.dispatch(depositPrograms[lit[set].channels == 3], {count, 1, 1},
+                      DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), count},
+                      {own.depths, own.normals, own.textures});
   }
 }
 
@@ -287,20 +262,16 @@ void IlluminationTextures::record(gpu::CommandList& commands, GpuScene& gpuScene
   if (lit.empty()) return;
   commands.pass("receivers from the light", [&] {
     commands.copy(beamUpload, beams, beamBytes);
-    commands.fill(textures, 0);
-    for (uint32_t set = 0; set < lit.size(); ++set) drawReceivers(commands, gpuScene, set);
-    commands.barrier();
-    for (uint32_t set = 0; set < lit.size(); ++set)
-      for (uint32_t window = 0; window < kWindows; ++window)
-        commands.copy(receiverViews[set].normals, window, normals, (set * kWindows + window) * windowBytes());
+    for (uint32_t set = 0; set < lit.size(); ++set) {
+      commands.clear(images[set].textures, vec4(0));
+      drawReceivers(commands, gpuScene, set);
+    }
   });
   commands.pass("illumination textures", [&] {
     VkDeviceAddress ofBeams = beams.address();
-    VkDeviceAddress texture = textures.address();
     for (uint32_t set = 0; set < lit.size(); ++set) {
-      for (uint32_t window = 0; window < kWindows; ++window) deposit(commands, set, window, ofBeams, texture);
+      deposit(commands, set, ofBeams);
       ofBeams += lit[set].beams.size() * sizeof(Beam);
-      texture += textureStart(lit[set].planes, 0, kWindows, channels) * sizeof(uint32_t);
     }
   });
 }
@@ -312,13 +283,13 @@ void IlluminationTextures::shade(gpu::CommandList& commands, const ReceiverPoint
     commands.render({.colors = {{&causticsLux, 0, std::nullopt}},
                      .region = isAll ? std::nullopt : std::optional(points.region)},
                     [&] {
-                      VkDeviceAddress texture = textures.address();
-                      for (uint32_t set = 0; set < lit.size(); ++set) {
-                        commands.draw(shadePrograms[channels == 3], 3, 1,
-                                      ShadeConstants{lit[set].planes, texture},
-                                      {*points.position, *points.normal, receiverViews[set].depths});
-                        texture += textureStart(lit[set].planes, 0, kWindows, channels) * sizeof(uint32_t);
-                      }
+                      for (uint32_t set = 0; set < lit.size(); ++set)
+                        commands.draw(shadePrograms[lit[set].channels == 3], 3, 1,
+                                      ShadeConstants{lit[set].planes, float(settings.textureSize)},
+                                      {*points.position,
+                                       *points.normal,
+                                       {images[set].depths, texelSampler},
+                                       {images[set].textures, texelSampler}});
                     });
   });
 }

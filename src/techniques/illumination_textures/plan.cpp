@@ -100,7 +100,8 @@ Window windowAbout(std::vector<Arrival>& arrivals, double tail, uint32_t texture
   const vec2 u = fluxRange(arrivals, tail, [](const Arrival& a) { return a.place.x; });
   const vec2 v = fluxRange(arrivals, tail, [](const Arrival& a) { return a.place.y; });
   const float side = std::max({u.y - u.x, v.y - v.x, 1e-3f}) * (1 + 2 * kWindowMargin);
-  return {vec2(0.5f * (u.x + u.y - side), 0.5f * (v.x + v.y - side)), float(textureSize) / side};
+  return {vec2(0.5f * (u.x + u.y - side), 0.5f * (v.x + v.y - side)), float(textureSize) / side,
+          float(textureSize)};
 }
 
 void setAxes(vec3 meanDirection, PlaneSet& set) {
@@ -130,7 +131,6 @@ std::vector<ReceiverBox> receiverBoxes(const Scene& scene) {
 PlaneSet planPlanes(std::span<const Beam> beams, std::span<const ReceiverBox> boxes, uint32_t planes,
                     uint32_t textureSize) {
   PlaneSet set{};
-  set.textureSize = textureSize;
   glm::dvec3 mean(0), flux(0);
   for (const Beam& beam : beams) {
     const Line middle = middleOf(beam);
@@ -152,7 +152,7 @@ PlaneSet planPlanes(std::span<const Beam> beams, std::span<const ReceiverBox> bo
   if (arrivals.empty()) return set;
 
   set.windows[0] = windowAbout(arrivals, kInnerWindowTail, textureSize);
-  set.windows[1] = windowAbout(arrivals, 0, textureSize);
+  set.windows[1] = windowAbout(arrivals, 0, textureSize / 2);
   const vec2 depths = fluxRange(arrivals, kDepthTail, [](const Arrival& a) { return a.depth; });
   const bool isOne = planes == 1 || depths.y - depths.x < 1e-4f / set.windows[0].texelsPerMetre;
   set.planes = isOne ? 1 : planes;

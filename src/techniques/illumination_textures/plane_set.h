@@ -2,8 +2,8 @@
 // C++ and GLSL.
 //
 // Planes stand across the mean direction of the light, `axisW`, at equal distances. Each holds a texture of
-// illuminance, and all share a virtual camera that looks along axisW. A texture has two windows of the same
-// number of texels: an inner one about where most of the flux arrives, and an outer one about where any does.
+// illuminance, and all share a virtual camera that looks along axisW. A texture has two windows: an inner one
+// about where most of the flux arrives, and an outer one, of a quarter of its texels, about where any does.
 #ifndef NEPHROID_TECHNIQUES_ILLUMINATION_TEXTURES_PLANE_SET_H
 #define NEPHROID_TECHNIQUES_ILLUMINATION_TEXTURES_PLANE_SET_H
 
@@ -17,6 +17,7 @@ SHARED_CONSTANT uint kWindows = 2u;
 struct Window {
   vec2 corner;
   float texelsPerMetre;
+  float size;  // texels along a side
 };
 
 struct PlaneSet {
@@ -26,7 +27,6 @@ struct PlaneSet {
   float firstDepth;  // m along axisW, of the first plane
   float depthStep;   // m between planes
   uint planes;
-  uint textureSize;              // texels along a side
   Window windows[2];             // inner, outer
   vec3 luxMetresSquaredPerUnit;  // flux (lm) of one unit of the textures, by channel
   float nearestDepth;            // m along axisW, what the virtual camera sees
@@ -44,15 +44,18 @@ SHARED_FUNCTION PlaneGrid planeGrid(PlaneSet set, uint plane, uint window) {
   return grid;
 }
 
-// Place in the window, in texels.
-SHARED_FUNCTION vec2 windowTexel(PlaneSet set, uint window, vec3 point) {
-  vec2 place = vec2(dot(point, set.axisU), dot(point, set.axisV));
-  return (place - set.windows[window].corner) * set.windows[window].texelsPerMetre;
+// Place in the window, in texels, of a point by its metres along axisU and axisV.
+SHARED_FUNCTION vec2 texelOfWindow(Window window, vec2 place) {
+  return (place - window.corner) * window.texelsPerMetre;
 }
 
-// First word of a texture: planes of the inner window, then planes of the outer one.
-SHARED_FUNCTION uint textureStart(PlaneSet set, uint plane, uint window, uint channels) {
-  return (window * set.planes + plane) * set.textureSize * set.textureSize * channels;
+SHARED_FUNCTION vec2 windowTexel(PlaneSet set, uint window, vec3 point) {
+  return texelOfWindow(set.windows[window], vec2(dot(point, set.axisU), dot(point, set.axisV)));
+}
+
+// First layer of a texture, one a channel: planes of the inner window, then planes of the outer one.
+SHARED_FUNCTION uint textureLayer(PlaneSet set, uint plane, uint window, uint channels) {
+  return (window * set.planes + plane) * channels;
 }
 
 SHARED_END

@@ -4,15 +4,12 @@
 #include "techniques/illumination_textures/shader_data.h"
 
 layout(push_constant, scalar) uniform Constants { ViewConstants constants; };
-layout(location = 0) out vec3 normal;
+layout(location = 0) out vec3 normal;  // in the camera's frame, as receiver_normal.glsl.h packs it
 
 void main() {
   const SceneVertex vertex = constants.vertices.vertex[gl_VertexIndex];
   const SceneObject object = constants.objects.object[constants.object];
-  const PlaneSet set = constants.set;
-  const vec3 position = worldPoint(object, vertex.position);
-  normal = worldVector(object, vertex.normal);
-  const float depth = dot(position, set.axisW);
-  const vec2 place = windowTexel(set, constants.window, position) / float(set.textureSize);
-  gl_Position = vec4(2 * place - 1, (depth - set.nearestDepth) / (set.farthestDepth - set.nearestDepth), 1);
+  const vec4 position = vec4(worldPoint(object, vertex.position), 1);
+  normal = worldVector(object, vertex.normal) * mat3(constants.axisU, constants.axisV, -constants.axisW);
+  gl_Position = vec4(dot(constants.toClip[0], position), dot(constants.toClip[1], position), dot(constants.toClip[2], position), 1);
 }

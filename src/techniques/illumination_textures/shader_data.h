@@ -14,20 +14,12 @@ SHARED_CONSTANT float kUnitsOfAllFlux = 536870912.0f;
 // Beams farther than this from the mean direction (as a cosine, 75.5 degrees) run along the planes rather
 // than through them.
 SHARED_CONSTANT float kLeastApproach = 0.25f;
-// Threads that deposit one beam.
-SHARED_CONSTANT uint kThreadsOfBeam = 8u;
 
 SHARED_END
 
 #ifndef __cplusplus
 layout(buffer_reference, scalar) readonly buffer Beams {
   Beam beam[];
-};
-layout(buffer_reference, scalar) readonly buffer ReceiverNormals {
-  uint word[];
-};
-layout(buffer_reference, scalar) buffer FluxUnits {
-  uint units[];
 };
 #endif
 
@@ -37,23 +29,22 @@ SHARED_BEGIN
 struct DepositConstants {
   PlaneSet set;
   BUFFER_ADDRESS(Beams) beams;
-  BUFFER_ADDRESS(ReceiverNormals) normals;  // of the window
-  BUFFER_ADDRESS(FluxUnits) textures;
   uint beamCount;
-  uint window;
 };
 
 struct ViewConstants {
-  PlaneSet set;
   BUFFER_ADDRESS(SceneVertices) vertices;
   BUFFER_ADDRESS(SceneObjects) objects;
+  vec4 toClip[3];  // rows of the affine map from world space
+  vec3 axisU;      // of the planes
+  vec3 axisV;
+  vec3 axisW;
   uint object;
-  uint window;
 };
 
 struct ShadeConstants {
   PlaneSet set;
-  BUFFER_ADDRESS(FluxUnits) textures;
+  float textureSize;
 };
 
 SHARED_END
