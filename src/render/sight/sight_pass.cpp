@@ -123,7 +123,7 @@ void SightPass::add(SceneTransport& transport, const View& view, uint32_t index,
   constants.isThinWalled = material.thinWalled;
   for (uint32_t channel = 0; channel < caster.channels(); ++channel) {
     meshes_.push_back(sightMesh(scene, transport.source(), transport.rayScene(),
-                                sightQuery(index, view.eye, channel, media), view.pixelAngle));
+                                sightQuery(index, view.eye, channel, media), view));
     caster.ranges[channel].count = uint32_t(meshes_.back().indices.size());
     caster.slices[channel] =
         planSlices(meshes_.back(), constants.center, radius, receivers_, settings_.slices);

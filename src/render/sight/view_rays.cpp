@@ -33,6 +33,18 @@ struct Corner {
 };
 using Triangle = std::array<Corner, 3>;
 
+// Whether a triangle is off one side of the picture, or behind the viewer.
+bool isOutside(const View& view, const Triangle& t) {
+  const vec4 a = view.worldToClip * vec4(t[0].position, 1), b = view.worldToClip * vec4(t[1].position, 1),
+             c = view.worldToClip * vec4(t[2].position, 1);
+  if (std::max({a.w, b.w, c.w}) <= 0) return true;
+  for (int axis = 0; axis < 2; ++axis)
+    if ((a[axis] > a.w && b[axis] > b.w && c[axis] > c.w) ||
+        (a[axis] < -a.w && b[axis] < -b.w && c[axis] < -c.w))
+      return true;
+  return false;
+}
+
 SightVertex vertexOf(const Corner& corner) {
   const float reach = corner.ray.reach < kUnboundedReach ? corner.ray.reach : kNoReach;
   return {corner.position,
@@ -51,9 +63,9 @@ bool isLost(const OutgoingRay& ray) {
 // Cuts one triangle of the mesh where its rays part.
 class Cutter {
  public:
-  Cutter(const TransportSource& sourceToAsk, const TransportQuery& queryOf, float pixel, float sizeOfCaster,
-         bool curved, const Triangle& whole)
-      : source(sourceToAsk), query(queryOf), pixelAngle(pixel), size(sizeOfCaster), isCurved(curved) {
+  Cutter(const TransportSource& sourceToAsk, const TransportQuery& queryOf, const View& viewOf,
+         float sizeOfCaster, bool curved, const Triangle& whole)
+      : source(sourceToAsk), query(queryOf), view(viewOf), size(sizeOfCaster), isCurved(curved) {
     for (int i = 0; i < 3; ++i) {
       positions[i] = whole[std::size_t(i)].position;
       normals[i] = whole[std::size_t(i)].normal;
@@ -78,7 +90,7 @@ class Cutter {
 
   float pixels(const Corner& a, const Corner& b) const {
     const vec3 eye = query.emitter.position;
-    return distance(a.position, b.position) / (pixelAngle * std::max(distance(a.position, eye), 1e-6f));
+    return distance(a.position, b.position) / (view.pixelAngle * std::max(distance(a.position, eye), 1e-6f));
   }
 
   // By where they go: rays of a table and traced ones have no signatures in common.
@@ -107,12 +119,14 @@ class Cutter {
   // Whether the ray at a side's middle is off the mean of those at its ends.
   bool bends(const Corner& a, const Corner& b, const Corner& middle) const {
     if (!sameWay(a, middle) || !sameWay(b, middle)) return true;
-    const float pixel = pixelAngle * distance(middle.position, query.emitter.position);  // m
-    return distance(middle.ray.direction, normalize(a.ray.direction + b.ray.direction)) > 2 * pixelAngle ||
+    const float pixel = view.pixelAngle * distance(middle.position, query.emitter.position);  // m
+    return distance(middle.ray.direction, normalize(a.ray.direction + b.ray.direction)) >
+               2 * view.pixelAngle ||
            distance(middle.ray.position, 0.5f * (a.ray.position + b.ray.position)) > pixel;
   }
 
   void refine(const Triangle& t, uint32_t cuts, std::vector<Triangle>& pieces) const {
+    if (isOutside(view, t)) return;
     const float longest = std::max({pixels(t[0], t[1]), pixels(t[1], t[2]), pixels(t[2], t[0])});
     const bool isSteady = sameWay(t[0], t[1]) && sameWay(t[0], t[2]) && sameWay(t[1], t[2]);
     if (cuts == 0 || longest < (isSteady ? kLongestStraightSide : kSmallestSide)) {
@@ -139,7 +153,7 @@ class Cutter {
 
   const TransportSource& source;
   const TransportQuery& query;
-  const float pixelAngle;
+  const View& view;
   const float size;  // m
   const bool isCurved;
   mat3 positions{1}, normals{1};
@@ -156,10 +170,10 @@ struct Block {
 class Collector {
  public:
   Collector(const Scene& scene, const TransportSource& sourceToAsk, const TransportQuery& queryOf,
-            float pixel)
+            const View& viewOf)
       : source(sourceToAsk),
         query(queryOf),
-        pixelAngle(pixel),
+        view(viewOf),
         object(scene.objects[queryOf.object]),
         mesh(scene.meshOf(object)),
         facing(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f),
@@ -215,7 +229,7 @@ class Collector {
   bool isLong(const uvec3& t) const {
     const vec3 a = corners[t.x].position, b = corners[t.y].position, c = corners[t.z].position;
     const float longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
-    return longest > kLongestStraightSide * pixelAngle * distance(a, query.emitter.position);
+    return longest > kLongestStraightSide * view.pixelAngle * distance(a, query.emitter.position);
   }
 
   bool facesAway(const Corner& corner) const {
@@ -245,12 +259,12 @@ class Collector {
       return;
     }
     for (int i = 0; i < 3; ++i) whole[std::size_t(i)].weights = mat3(1)[i];
-    Cutter(source, query, pixelAngle, size, mesh.isCurved, whole).add(whole, block.pieces);
+    Cutter(source, query, view, size, mesh.isCurved, whole).add(whole, block.pieces);
   }
 
   const TransportSource& source;
   const TransportQuery& query;
-  const float pixelAngle;
+  const View& view;
   const Object& object;
   const Mesh& mesh;
   const float facing;  // -1 where the viewer is inside the caster
@@ -298,8 +312,8 @@ TransportQuery sightQuery(uint32_t object, vec3 eye, uint32_t channel, const Med
 }
 
 SightMesh sightMesh(const Scene& scene, const TransportSource& source, const RayScene& rays,
-                    const TransportQuery& query, float pixelAngle) {
-  SightMesh mesh = Collector(scene, source, query, pixelAngle).collect();
+                    const TransportQuery& query, const View& view) {
+  SightMesh mesh = Collector(scene, source, query, view).collect();
   if (scene.materialOf(scene.objects[query.object]).type == MaterialType::dielectric)
     findReflected(scene, rays, query.emitter.position, mesh);
   return mesh;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/sight/sight_data.h"
+#include "render/view.h"
 #include "transport/source.h"
 
 namespace nephroid {
@@ -20,8 +21,8 @@ struct SightMesh {
 // A line of sight from `eye`, inside of `media`, that meets the object, in one colour channel.
 TransportQuery sightQuery(uint32_t object, vec3 eye, uint32_t channel, const MediumStack& media);
 
-// `pixelAngle`: radians between neighbouring pixels. `rays`: of the scene.
+// Of what is within the picture. `rays`: of the scene.
 SightMesh sightMesh(const Scene& scene, const TransportSource& source, const RayScene& rays,
-                    const TransportQuery& query, float pixelAngle);
+                    const TransportQuery& query, const View& view);
 
 }  // namespace nephroid
