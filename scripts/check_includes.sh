@@ -12,9 +12,10 @@ reference core optics scene trace
 transport core optics scene trace
 beams core optics scene transport
 gpu core
-techniques core optics scene trace transport beams gpu
-render core optics scene trace transport beams gpu techniques
-report core optics scene trace reference transport beams gpu techniques render
+irradiance_volume core optics scene trace transport
+techniques core optics scene trace transport irradiance_volume beams gpu
+render core optics scene trace transport irradiance_volume beams gpu techniques
+report core optics scene trace reference transport irradiance_volume beams gpu techniques render
 "
 wrong=0
 complain() {

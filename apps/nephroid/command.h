@@ -54,6 +54,9 @@ void addField(CLI::App& command, const SettingField& field, TechniqueSettings& s
 // Which technique, and all that may be said of how it works; and the latter alone.
 void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown);
 void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown);
+// Some of these alone.
+void addRepresentation(CLI::App& command, TechniqueSettings& settings);
+void addPaths(CLI::App& command, TechniqueSettings& settings);
 
 // Throws, before any work is done, where `file` cannot be written, ends in none of `extensions` (none given:
 // any will do) or is the scene itself.
@@ -73,7 +76,7 @@ inline constexpr const char* kReferenceName = "reference";
 std::vector<std::string> techniqueList();
 
 // "a, b, c".
-std::string joined(const std::vector<std::string>& names);
+std::string joined(const std::vector<std::string>& names, const std::string& between = ", ");
 
 // The program and its arguments as a shell would be given them.
 const std::string& commandLine();

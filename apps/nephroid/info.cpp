@@ -42,7 +42,7 @@ void printProgram() {
   std::cout << "nephroid   " NEPHROID_VERSION "\n"
             << "Embree     " NEPHROID_EMBREE_VERSION "\n"
             << "techniques " << joined(techniqueList()) << "\n"
-            << "tables     " << tableCacheFolder().string() << "\n";
+            << "tables     " << cacheFolder().string() << "\n";
   printDevices();
   printAllOmissions();
 }

@@ -24,16 +24,16 @@ void addChoice(CLI::App& command, const std::string& flag, Choice& choice,
           },
           help)
       ->check(oneOf(all))
-      ->type_name(names[0] + std::string("|") + names[1])
+      ->type_name(joined(all, "|"))
       ->default_str(nameOf(choice))
       ->group("Technique");
 }
 
 }  // namespace
 
-std::string joined(const std::vector<std::string>& names) {
+std::string joined(const std::vector<std::string>& names, const std::string& between) {
   std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  for (const std::string& name : names) text += (text.empty() ? "" : between) + name;
   return text;
 }
 
@@ -173,16 +173,31 @@ void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorK
   addTechniqueSettings(command, settings, isSensorKnown);
 }
 
+void addRepresentation(CLI::App& command, TechniqueSettings& settings) {
+  addChoice(command, "--representation", settings.representation, kRepresentationNames,
+            "How an irradiance volume is kept: on a uniform grid around the light, or on concentric shells "
+            "placed where the light changes");
+}
+
+void addPaths(CLI::App& command, TechniqueSettings& settings) {
+  addChoice(command, "--paths", settings.paths, kPathsNames,
+            "Light followed by refraction alone, or by reflection outside and inside as well");
+}
+
 void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown) {
   addChoice(command, "--source", settings.source, kSourceNames,
             "Where the rays that leave a caster come from: a light transport table, or traced now");
-  addChoice(command, "--paths", settings.paths, kPathsNames,
-            "Light followed by refraction alone, or by reflection outside and inside as well");
+  addPaths(command, settings);
   addChoice(command, "--interpolation", settings.interpolation, kInterpolationNames,
             "Virtual planes that bend onto the receivers, or flat ones that receivers blend");
+  addChoice(command, "--light-interpolation", settings.lightInterpolation, kLightInterpolationNames,
+            "Between the light directions of an irradiance volume: the nearest, the three around by their "
+            "weights, or these turned to the light");
+  addRepresentation(command, settings);
   command
-      .add_option("--baked", settings.baked,
-                  "The light transport tables that `nephroid bake` wrote for this scene")
+      .add_option(
+          "--baked", settings.baked,
+          "The light transport tables or irradiance volumes that `nephroid bake` wrote for this scene")
       ->type_name("FILE")
       ->group("Technique");
   for (const SettingField& field : settingFields()) addField(command, field, settings, isSensorKnown);

@@ -31,6 +31,18 @@ bool hasLineLight(const Scene& scene) {
                      [](const Light& light) { return light.type == LightType::line; });
 }
 
+bool hasNearLight(const Scene& scene) {
+  return hasCaster(scene) && std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+           return light.type != LightType::directional;
+         });
+}
+
+bool hasWaterOrSheet(const Scene& scene) {
+  return anyMaterial(scene, [](const Material& material) { return material.thinWalled; }) ||
+         std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [](const Object& object) { return object.water.has_value(); });
+}
+
 bool hasMedium(const Scene& scene) {
   return scene.medium.has_value();
 }
@@ -78,6 +90,24 @@ std::span<const Omission> omissionsOfIlluminationTextures() {
        hasCaster},
       {"Detail between the rays of a caster's vertices, and finer than a texel of the virtual planes",
        hasCaster},
+  };
+  return kOmissions;
+}
+
+std::span<const Omission> omissionsOfIrradianceVolumes() {
+  static constexpr Omission kOmissions[] = {
+      {"Light beyond --volume-radius bounding radii of a caster's centre, and what fades toward there",
+       hasCaster},
+      {"Shadows in caustics: what stands between a caster and a receiver hides nothing of its light",
+       hasCaster},
+      {"Light from one caster through another, and light that other objects keep from a caster", hasCaster},
+      {"How near a light stands: it falls on a caster as it does on the caster's centre, from one direction",
+       hasNearLight},
+      {"Reflection at glass, outside, inside and total, unless --paths all asks for it", hasGlass},
+      {"The spectrum: light that disperses goes in three bands, red, green and blue, not by wavelength",
+       hasDispersion},
+      {"Water and sheets without a volume, which cast no caustics here", hasWaterOrSheet},
+      {"Detail finer than a cell of the volume, and between the light directions it was made for", hasCaster},
   };
   return kOmissions;
 }

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "techniques/illumination_textures/illumination_textures.h"
+#include "techniques/irradiance_volume/irradiance_volume.h"
 
 namespace nephroid {
 namespace {
@@ -17,6 +18,7 @@ class NoCaustics final : public Technique {
 
 constexpr TechniqueEntry kTechniques[] = {
     {"illumination-textures", makeIlluminationTextures, omissionsOfIlluminationTextures},
+    {"irradiance-volume", makeIrradianceVolumes, omissionsOfIrradianceVolumes},
     {"none",
      [](const TechniqueContext&) -> std::unique_ptr<Technique> { return std::make_unique<NoCaustics>(); },
      omissionsOfNoCaustics},

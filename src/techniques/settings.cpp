@@ -10,9 +10,19 @@ std::span<const SettingField> settingFields() {
       {"texture-size", "Texels along each side of a virtual plane", &Settings::textureSize, 16, 8192,
        nullptr},
       {"directions", "Light directions held for each vertex of a light transport table",
-       &Settings::directions, 9, 65535, nullptr},
+       &Settings::directions, 9, 65535, nullptr, true},
       {"refine-depth", "How many times a beam may be divided where the light within it goes different ways",
        &Settings::refineDepth, 0, 8, nullptr},
+      {"volume-kilobytes", "Kilobytes of an irradiance volume for each light direction",
+       &Settings::volumeKilobytes, 1, 65535, nullptr, true},
+      {"light-level",
+       "How often the icosahedron of an irradiance volume's light directions is cut finer: 10 * 4^N + 2 "
+       "directions, fewer for symmetric casters",
+       &Settings::lightLevel, 0, kMostLightLevels, nullptr, true},
+      {"volume-radius", "Where an irradiance volume ends, in radii of its caster's bounding sphere",
+       &Settings::volumeRadius, 2, 64, nullptr, true},
+      {"volume-photons", "Thousands of photons for each light direction of an irradiance volume",
+       &Settings::volumePhotons, 1, 100000, nullptr, true},
   };
   return kFields;
 }

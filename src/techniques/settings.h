@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "irradiance_volume/light_samples.h"
 #include "transport/source.h"
 
 namespace nephroid {
@@ -23,6 +24,11 @@ enum class Interpolation { surface, blend };
 inline constexpr std::array<const char*, 2> kSourceNames{"table", "traced"};
 inline constexpr std::array<const char*, 2> kPathsNames{"transmission", "all"};
 inline constexpr std::array<const char*, 2> kInterpolationNames{"surface", "blend"};
+inline constexpr std::array<const char*, 3> kLightInterpolationNames{"nearest", "barycentric", "rotated"};
+
+// How an irradiance volume is kept; as kRepresentation... of irradiance_volume/lookup.h.
+enum class Representation { grid, shells };
+inline constexpr std::array<const char*, 2> kRepresentationNames{"grid", "shells"};
 
 struct TechniqueSettings {
   std::string technique = "illumination-textures";  // a name of the registry
@@ -32,8 +38,14 @@ struct TechniqueSettings {
   uint32_t planes = 4;          // virtual planes; 0: a single one, in the sensor's own plane
   uint32_t textureSize = 512;   // texels along a side of a virtual plane
   uint32_t directions = 129;    // per vertex of a light transport table
-  std::filesystem::path baked;  // the light transport tables to use; empty: found in the cache, or made
+  std::filesystem::path baked;  // the tables or volumes to use; empty: found in the cache, or made
   uint32_t refineDepth = 2;     // times a beam may be halved along its edges
+  LightInterpolation lightInterpolation = LightInterpolation::rotated;
+  Representation representation = Representation::grid;
+  uint32_t volumeKilobytes = 360;  // of an irradiance volume, for each light direction
+  uint32_t lightLevel = 3;         // times the icosahedron of light directions is cut finer
+  uint32_t volumeRadius = 3;       // bounding radii
+  uint32_t volumePhotons = 200;    // thousands, for each light direction
 };
 
 inline const char* nameOf(Source source) {
@@ -46,6 +58,13 @@ inline const char* nameOf(Interpolation interpolation) {
   return kInterpolationNames[static_cast<std::size_t>(interpolation)];
 }
 
+inline const char* nameOf(Representation representation) {
+  return kRepresentationNames[static_cast<std::size_t>(representation)];
+}
+inline const char* nameOf(LightInterpolation interpolation) {
+  return kLightInterpolationNames[static_cast<std::size_t>(interpolation)];
+}
+
 // A number among the settings.
 struct SettingField {
   const char* flag;  // without its dashes
@@ -55,6 +74,7 @@ struct SettingField {
   uint32_t maximum;
   const char*
       zeroWord;  // what a user writes for 0 where a sensor is measured; null where there is no such word
+  bool isBaked = false;  // what `nephroid bake` writes depends on it
 };
 
 std::span<const SettingField> settingFields();

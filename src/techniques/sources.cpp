@@ -56,9 +56,10 @@ std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const Techn
                                                  const TracedSource& traced, Progress& progress) {
   const TableSettings tableSettings{settings.directions};
   const TablePlan plan = planTables(scene, tableSettings);
-  const std::vector<TransportTable> tables = settings.baked.empty()
-                                                 ? makePlanned(scene, plan, tableSettings, progress)
-                                                 : openTables(settings.baked, plan.keys);
+  // A file of irradiance volumes holds no tables.
+  const bool isBaked = !settings.baked.empty() && settings.technique != "irradiance-volume";
+  const std::vector<TransportTable> tables =
+      !isBaked ? makePlanned(scene, plan, tableSettings, progress) : openTables(settings.baked, plan.keys);
   std::vector<std::optional<TransportTable>> ofObject(scene.objects.size());
   for (std::size_t i = 0; i < ofObject.size(); ++i)
     if (plan.ofObject[i]) ofObject[i] = tables[*plan.ofObject[i]];

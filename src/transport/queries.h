@@ -19,4 +19,8 @@ struct BandQuery {
 std::vector<BandQuery> queriesFor(const Scene& scene, uint32_t object, const Emitter& emitter,
                                   const MediumStack& mediaAround, Paths paths);
 
+// The choices of reflections (TransportQuery::reflections) that carry light worth having through a caster of
+// `material`.
+std::vector<uint32_t> reflectionChoices(const Material& material, Paths paths);
+
 }  // namespace nephroid

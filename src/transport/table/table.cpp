@@ -14,6 +14,12 @@ constexpr uint32_t kFewestRings = 2;
 constexpr uint32_t kMostRings = 1024;
 constexpr uint64_t kMostWords = uint64_t{1} << 32;  // an entry is addressed by 32 bits, in C++ and GLSL
 
+uint32_t directionsOf(uint32_t rings) {
+  return 1 + rings * 2 * rings;
+}
+
+}  // namespace
+
 uint64_t geometryHash(const Mesh& mesh) {
   Hasher hasher;
   hasher.add(mesh.positions.size());
@@ -23,12 +29,6 @@ uint64_t geometryHash(const Mesh& mesh) {
   hasher.add(std::as_bytes(std::span(mesh.triangles)));
   return hasher.value();
 }
-
-uint32_t directionsOf(uint32_t rings) {
-  return 1 + rings * 2 * rings;
-}
-
-}  // namespace
 
 bool isAddressable(const TableKey& key) {
   return key.rings >= kFewestRings && key.rings <= kMostRings && key.azimuths == 2 * key.rings &&

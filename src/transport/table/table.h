@@ -23,9 +23,12 @@ struct TableSettings {
       129;  // per vertex; the nearest 1 + rings * azimuths with twice as many azimuths as rings is used
 };
 
+// Of positions, normals, triangles and whether the surface bends.
+uint64_t geometryHash(const Mesh& mesh);
+
 // What a table was computed for. A table is only ever used where its key is the one asked for.
 struct TableKey {
-  uint64_t geometry = 0;  // hash of positions, normals and triangles
+  uint64_t geometry = 0;  // geometryHash
   vec3 ior{0};            // per channel
   uint32_t vertices = 0;
   uint32_t rings = 0;

@@ -1,10 +1,5 @@
 #include "transport/table/table_file.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
 #include <cerrno>
@@ -15,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/mapped_file.h"
 
 namespace nephroid {
 namespace {
@@ -101,42 +97,6 @@ std::string describe(vec3 ior) {
   throw InputError("table '" + file.string() + "' " + what);
 }
 
-class Descriptor {
- public:
-  // Does not wait where the file is a pipe that nobody writes to.
-  explicit Descriptor(const std::filesystem::path& file)
-      : number(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-    if (number < 0) reject(file, std::string("cannot be read: ") + std::strerror(errno));
-  }
-  ~Descriptor() { close(number); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  const int number;
-};
-
-struct MappedFile {
-  std::shared_ptr<const void> bytes;
-  uint64_t size;
-};
-
-MappedFile mapFile(const std::filesystem::path& file) {
-  const Descriptor descriptor(file);
-  struct stat status {};
-  if (fstat(descriptor.number, &status) != 0)
-    reject(file, std::string("cannot be read: ") + std::strerror(errno));
-  if (!S_ISREG(status.st_mode)) reject(file, "is not a file; `nephroid bake SCENE -o FILE` writes one");
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (size < sizeof(FileHeader)) reject(file, "is truncated: it is shorter than its header; bake it again");
-  void* address = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor.number, 0);
-  if (address == MAP_FAILED) {
-    throw RuntimeFailure("table '" + file.string() +
-                         "' cannot be mapped into memory: " + std::strerror(errno));
-  }
-  return {std::shared_ptr<const void>(
-              address, [size](const void* mapped) { munmap(const_cast<void*>(mapped), size); }),
-          size};
-}
-
 void checkHeader(const std::filesystem::path& file, const FileHeader& header, std::size_t index) {
   if (!std::equal(std::begin(kMagic), std::end(kMagic), header.magic)) {
     reject(file, "is not a light transport table; `nephroid bake SCENE -o FILE` writes one");
@@ -210,7 +170,7 @@ void writeTables(std::span<const TransportTable> tables, const std::filesystem::
 
 std::vector<TransportTable> openTables(const std::filesystem::path& file,
                                        std::span<const TableKey> expected) {
-  const std::vector<TransportTable> tables = readTables(file, mapFile(file));
+  const std::vector<TransportTable> tables = readTables(file, mapFile(file, "table", sizeof(FileHeader)));
   std::vector<TransportTable> found;
   for (const TableKey& key : expected) {
     const auto match = std::find_if(tables.begin(), tables.end(),

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "core/cache_folder.h"
 #include "transport/table/table.h"
 
 namespace nephroid {
@@ -16,13 +17,10 @@ void writeTables(std::span<const TransportTable> tables, const std::filesystem::
 // for other meshes, indices of refraction or numbers of directions.
 std::vector<TransportTable> openTables(const std::filesystem::path& file, std::span<const TableKey> expected);
 
-// $XDG_CACHE_HOME/nephroid or ~/.cache/nephroid; empty when neither is known.
-std::filesystem::path tableCacheFolder();
-
 // The table from the cache folder, or built and left there. Nothing in that folder is an error: what cannot
 // be used is built anew, and what cannot be written is not. The least recently used tables go when the folder
 // holds more than 2 GiB of them.
 TransportTable loadOrBuildTable(const Mesh& mesh, vec3 ior, const TableSettings& settings, Progress& progress,
-                                const std::filesystem::path& cacheFolder = tableCacheFolder());
+                                const std::filesystem::path& folder = cacheFolder());
 
 }  // namespace nephroid

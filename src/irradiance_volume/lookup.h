@@ -1,0 +1,126 @@
+// Looking up the caustic light stored around a caster, once for C++ and GLSL.
+//
+// A shader defines `struct VolumeView` with `uvec3 size` and `uint volumeWord(VolumeView volume, uint index)`
+// and includes this.
+#ifndef NEPHROID_IRRADIANCE_VOLUME_LOOKUP_H
+#define NEPHROID_IRRADIANCE_VOLUME_LOOKUP_H
+
+#include "core/octahedral.h"
+#include "core/shared_language.h"
+
+#ifdef __cplusplus
+#include <glm/gtc/packing.hpp>
+namespace nephroid {
+struct VolumeView {
+  uvec3 size;
+  const uint* words;
+};
+inline uint volumeWord(const VolumeView& volume, uint index) {
+  return volume.words[index];
+}
+using glm::uintBitsToFloat;
+using glm::unpackHalf2x16;
+}  // namespace nephroid
+#endif
+
+SHARED_BEGIN
+
+SHARED_CONSTANT uint kRepresentationGrid = 0u;
+SHARED_CONSTANT uint kRepresentationShells = 1u;
+
+SHARED_CONSTANT uint kWordsOfCell = 2u;
+// What the cells of shells come after: how far around the light's direction the shells reach, as a part of
+// the octahedral map's side; then which shell, counted from within, is at each of so many radii.
+SHARED_CONSTANT uint kShellRadii = 64u;
+SHARED_CONSTANT uint kShellWords = kShellRadii + 2u;
+// Shells hold light times the square of its distance from the centre, in regions' radii, no less than this:
+// what spreads from there changes little from shell to shell.
+SHARED_CONSTANT float kLeastShellSquare = 1e-3f;
+
+// Light that passes a place. On a surface of unit normal n that light falls on from its front alone, the
+// illuminance is -dot(n, vector), lux for light of 1 lux, shared out on channels by `color`. Facing the
+// object's centre it is Wyman's local irradiance; kept as a vector, a plane of any other orientation receives
+// the flux that crosses it.
+struct VolumeLight {
+  vec3 vector;  // mean over the channels
+  vec3 color;   // weighted by how bright the cells are; only ratios count
+};
+
+SHARED_FUNCTION VolumeLight noLight() {
+  VolumeLight light;
+  light.vector = vec3(0.0f);
+  light.color = vec3(0.0f);
+  return light;
+}
+
+// A cell is three half floats of the vector, and the red and blue part of the light in 8 bits each.
+SHARED_FUNCTION void addCell(VolumeView volume, uint cell, float weight, INOUT(VolumeLight) light) {
+  uint low = volumeWord(volume, kWordsOfCell * cell);
+  uint high = volumeWord(volume, kWordsOfCell * cell + 1u);
+  vec2 across = unpackHalf2x16(low);
+  vec3 vector = weight * vec3(across.x, across.y, unpackHalf2x16(high).x);
+  light.vector += vector;
+  float red = float((high >> 16u) & 0xffu) / 255.0f;
+  float blue = float(high >> 24u) / 255.0f;
+  light.color += (abs(vector.x) + abs(vector.y) + abs(vector.z)) * vec3(red, 1.0f - red - blue, blue);
+}
+
+// `place` in cells from the grid's corner; nothing beyond the grid. Its cells come after `first` others.
+SHARED_FUNCTION VolumeLight gridLight(VolumeView volume, uint first, vec3 place) {
+  VolumeLight light = noLight();
+  vec3 end = vec3(volume.size);
+  bool isOutside =
+      min(min(place.x, place.y), place.z) < 0.0f || place.x > end.x || place.y > end.y || place.z > end.z;
+  // A software device passes over a loop that none of its threads enter, but not over a branch.
+  uint corners = isOutside ? 0u : 8u;
+  vec3 clamped = clamp(place - 0.5f, vec3(0.0f), end - 1.0f);
+  uvec3 corner = min(uvec3(clamped), max(volume.size, uvec3(2u)) - 2u);
+  uvec3 next = min(corner + 1u, volume.size - 1u);
+  vec3 part = clamped - vec3(corner);
+  for (uint i = 0u; i < corners; ++i) {
+    uvec3 bit = uvec3(i & 1u, (i >> 1u) & 1u, i >> 2u);
+    uvec3 cell = corner + bit * (next - corner);
+    vec3 weights = mix(1.0f - part, part, vec3(bit));
+    addCell(volume, first + (cell.z * volume.size.y + cell.y) * volume.size.x + cell.x,
+            weights.x * weights.y * weights.z, light);
+  }
+  return light;
+}
+
+// Where a place, in regions' radii from the centre, lies among the shells: across them, as cells of a
+// subdivided octahedron about the light's direction, then from shell to shell.
+SHARED_FUNCTION vec3 placeInShells(VolumeView volume, vec3 place) {
+  float radius = length(place);
+  vec2 square = octahedralFromDirection(radius > 0.0f ? place / radius : vec3(0.0f, 0.0f, 1.0f));
+  float reach = uintBitsToFloat(volumeWord(volume, 0u));
+  vec2 across = ((square - 0.5f) / reach + 0.5f) * vec2(float(volume.size.x), float(volume.size.y));
+  float along = min(radius, 1.0f) * float(kShellRadii);
+  uint before = min(uint(along), kShellRadii - 1u);
+  float shell = mix(uintBitsToFloat(volumeWord(volume, 1u + before)),
+                    uintBitsToFloat(volumeWord(volume, 2u + before)), along - float(before));
+  return vec3(across.x, across.y, radius <= 1.0f ? shell : -1.0f);
+}
+
+SHARED_FUNCTION VolumeLight volumeLight(VolumeView volume, uint representation, vec3 place) {
+  if (representation != kRepresentationShells) return gridLight(volume, 0u, place);
+  VolumeLight light = gridLight(volume, kShellWords / kWordsOfCell, placeInShells(volume, place));
+  light.vector /= max(dot(place, place), kLeastShellSquare);
+  return light;
+}
+
+// What is left of light toward the border of the region; `distance` in its radii from the centre.
+SHARED_FUNCTION float fadeAt(float distance) {
+  float part = clamp(10.0f * (1.0f - distance), 0.0f, 1.0f);
+  return part * part * (3.0f - 2.0f * part);
+}
+
+// Lux by channel on a surface of unit normal `normal`, on the side that it points to.
+SHARED_FUNCTION vec3 surfaceIlluminance(VolumeLight light, vec3 normal) {
+  float sum = light.color.x + light.color.y + light.color.z;
+  float illuminance = max(-dot(normal, light.vector), 0.0f);
+  return sum > 0.0f ? (3.0f * illuminance / sum) * light.color : vec3(0.0f);
+}
+
+SHARED_END
+
+#endif

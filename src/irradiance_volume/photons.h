@@ -1,0 +1,49 @@
+// Photons of a directional light followed through one caster.
+#pragma once
+
+#include <vector>
+
+#include "core/progress.h"
+#include "irradiance_volume/symmetry.h"
+#include "scene/scene.h"
+#include "trace/paths.h"
+#include "transport/follow.h"
+
+namespace nephroid {
+
+// A straight part of a photon's way through the air after it met the caster. In a light sample's frame:
+// bounding radii from the centre of the bounding sphere, z along the light.
+struct PhotonPath {
+  vec3 origin{0};
+  vec3 direction{0};  // unit
+  vec3 flux{0};       // for light of 1 lux, by channel: lux times square bounding radii
+  float length = 0;   // bounding radii
+};
+
+// One caster in its own space, ready to have photons sent through it.
+class PhotonTracer {
+ public:
+  // Mesh and material must outlive this. Attenuation distances are in the mesh's own units.
+  PhotonTracer(const Mesh& mesh, const Material& material, Paths paths);
+
+  // `photons` of them, evenly over the disc of the bounding sphere, for light of 1 lux along
+  // `lightDirection`; those that meet nothing have no paths. Paths end `reach` bounding radii from the
+  // centre. The same paths in the same order whatever the number of threads.
+  std::vector<PhotonPath> trace(vec3 lightDirection, uint32_t photons, float reach) const;
+
+  const BoundingSphere& sphere() const { return sphere_; }
+  const Symmetry& symmetry() const { return symmetry_; }
+
+ private:
+  void follow(const Hit& first, vec3 direction, vec3 flux, std::vector<PhotonPath>& paths) const;
+  void reflect(Hit hit, vec3 direction, vec3 flux, std::vector<PhotonPath>& paths) const;
+
+  const Material& material_;
+  Paths paths_;
+  RayScene rays_;
+  Follower follower_;
+  BoundingSphere sphere_;
+  Symmetry symmetry_;
+};
+
+}  // namespace nephroid

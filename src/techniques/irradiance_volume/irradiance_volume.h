@@ -1,0 +1,25 @@
+// Caustics looked up in a volume that was made for each caster beforehand: Wyman, Hansen and Shirley 2004,
+// "Interactive Caustics Using Local Precomputed Irradiance".
+#pragma once
+
+#include <memory>
+
+#include "irradiance_volume/volume.h"
+#include "techniques/registry.h"
+
+namespace nephroid {
+
+std::unique_ptr<Technique> makeIrradianceVolumes(const TechniqueContext& context);
+
+// The volumes of a scene's casters and which of them each object uses; none where an object casts no caustic
+// of its own. Casters alike in mesh, material and scale where they absorb share theirs.
+struct SceneVolumes {
+  std::vector<std::unique_ptr<IrradianceVolume>> volumes;
+  std::vector<IrradianceVolume*> ofObject;
+};
+
+// From `settings.baked`, or traced as they are asked for and kept in the cache. The scene's meshes must
+// outlive them. Throws InputError where the baked file is not of this scene.
+SceneVolumes sceneVolumes(const Scene& scene, const TechniqueSettings& settings);
+
+}  // namespace nephroid

@@ -1,0 +1,33 @@
+// What the shaders of this folder are given.
+#ifndef NEPHROID_TECHNIQUES_IRRADIANCE_VOLUME_SHADER_DATA_H
+#define NEPHROID_TECHNIQUES_IRRADIANCE_VOLUME_SHADER_DATA_H
+
+#include "gpu/buffer_address.h"
+
+#include "core/shared_language.h"
+
+#ifndef __cplusplus
+layout(buffer_reference, scalar) readonly buffer VolumeWords {
+  uint word[];
+};
+#endif
+
+SHARED_BEGIN
+
+// One light sample's share in the light of one emitter through one caster.
+struct VolumeConstants {
+  vec4 toPlaces[3];     // rows of the affine map from the world to places of the volume; without shear
+  vec3 centre;          // m, of the region
+  float inverseRadius;  // 1/m, of the region
+  vec3 lux;             // of the light that falls on the caster, times the share
+  uvec3 size;           // of the volume
+  BUFFER_ADDRESS(VolumeWords) words;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(nephroid::VolumeConstants) == 96);
+#endif
+
+#endif

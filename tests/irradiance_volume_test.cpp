@@ -1,0 +1,352 @@
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "closed_forms.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "irradiance_volume/volume_file.h"
+#include "scene/shapes.h"
+#include "temporary_folder.h"
+
+namespace nephroid {
+namespace {
+
+Material glass() {
+  Material material;
+  material.type = MaterialType::dielectric;
+  return material;
+}
+
+Material silver() {
+  Material material;
+  material.type = MaterialType::mirror;
+  material.color = vec3(0.9f, 0.8f, 0.6f);
+  return material;
+}
+
+VolumeSettings someSettings() {
+  VolumeSettings settings;
+  settings.kilobytes = 90;
+  settings.lightLevel = 1;
+  settings.photons = 30;
+  return settings;
+}
+
+Symmetry symmetryOf(const Mesh& mesh) {
+  return findSymmetry(RayScene(mesh), boundingSphere(mesh));
+}
+
+constexpr float kDisc = 0.5f;  // m, radius of the discs that flux is counted through
+
+// Lumens through a disc across the unit vector `axis`, by points spread evenly over it.
+double fluxThrough(IrradianceVolume& volume, vec3 light, vec3 centre, vec3 axis) {
+  constexpr int kPoints = 40000;
+  const mat3 frame = sampleFrame(axis);
+  double lux = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const float radius = kDisc * std::sqrt((float(i) + 0.5f) / kPoints), angle = 2.3999632f * float(i);
+    const vec3 point = centre + radius * (std::cos(angle) * frame[0] + std::sin(angle) * frame[1]);
+    lux += double(volume.illuminance(point, -axis, light, LightInterpolation::rotated).y) / kPoints;
+  }
+  return lux * std::numbers::pi * double(kDisc * kDisc);
+}
+
+// The same by counting photons.
+double photonsThrough(const PhotonTracer& tracer, vec3 light, vec3 centre, vec3 axis) {
+  const float radius = tracer.sphere().radius;
+  const mat3 frame = sampleFrame(light);
+  double flux = 0;
+  for (const PhotonPath& path : tracer.trace(light, 60000, 4)) {
+    const vec3 origin = tracer.sphere().centre + radius * (frame * path.origin);
+    const vec3 direction = frame * path.direction;
+    const float along = dot(centre - origin, axis) / dot(direction, axis);
+    if (along < 0 || along > radius * path.length || dot(direction, axis) <= 0) continue;
+    if (length(origin + along * direction - centre) < kDisc) flux += double(path.flux.y * radius * radius);
+  }
+  return flux;
+}
+
+TEST(LightSphere, SpreadsDirectionsAndFindsTheThreeAround) {
+  for (const uint32_t level : {0u, 1u, 3u}) {
+    const LightSphere sphere(level);
+    EXPECT_EQ(sphere.directions().size(), 10u * (1u << (2 * level)) + 2);
+    const float edge = 1.3f / float(1u << level);  // radians, above the longest
+    for (int i = 0; i < 200; ++i) {
+      const float z = -1 + (float(i) + 0.5f) / 100, azimuth = 2.4f * float(i);
+      const float planar = std::sqrt(1 - z * z);
+      const vec3 direction(planar * std::cos(azimuth), planar * std::sin(azimuth), z);
+      const DirectionTriangle triangle = sphere.around(direction);
+      vec3 blended(0);
+      float sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const vec3 vertex = sphere.directions()[triangle.vertex[k]];
+        EXPECT_GT(dot(vertex, direction), std::cos(edge));
+        blended += triangle.weight[k] * vertex;
+        sum += triangle.weight[k];
+      }
+      EXPECT_NEAR(sum, 1, 1e-5f);
+      EXPECT_NEAR(dot(normalize(blended), direction), 1, 1e-5f);
+    }
+  }
+}
+
+TEST(Symmetry, IsFoundInTheMesh) {
+  EXPECT_TRUE(symmetryOf(makeSphere(0.5f, {.vertices = 2000})).isBall);
+  const Symmetry ring = symmetryOf(makeRing(0.5f, 0.3f, 0.05f, {.vertices = 4000}));
+  EXPECT_FALSE(ring.isBall);
+  EXPECT_EQ(ring.axis, 1u);
+  EXPECT_TRUE(ring.mirrors[1]);
+  const Symmetry box = symmetryOf(makeBox(vec3(1, 1, 1)));
+  EXPECT_EQ(box.axis, 3u);
+  EXPECT_TRUE(box.mirrors[0] && box.mirrors[1] && box.mirrors[2]);
+  const Symmetry prism = symmetryOf(makePrism(0.5f, 1.2f));
+  EXPECT_EQ(prism.axis, 3u);
+  EXPECT_TRUE(prism.mirrors[2]);
+  EXPECT_FALSE(prism.mirrors[0] && prism.mirrors[1]);
+  const Symmetry teapot = symmetryOf(makeTeapot(1));
+  EXPECT_EQ(teapot.axis, 3u);
+  EXPECT_FALSE(teapot.mirrors[0] && teapot.mirrors[2]);
+}
+
+TEST(LightSamples, LeaveOutWhatIsTheSame) {
+  Symmetry none, ball, ring, box;
+  ball.isBall = true;
+  ring.axis = 1;
+  ring.mirrors[1] = true;
+  std::fill_n(box.mirrors, 3, true);
+  EXPECT_EQ(LightSamples(none, 2).directions().size(), 162u);
+  EXPECT_EQ(LightSamples(ball, 2).directions().size(), 1u);
+  EXPECT_EQ(LightSamples(ring, 2).directions().size(), 7u);  // 15.9 degrees apart over 90
+  EXPECT_EQ(LightSamples(box, 2).directions().size(), 27u);  // 8 * 27 less those on the planes
+}
+
+// The map to a sample takes the light's own direction near the sample's, and onto it where it is turned.
+TEST(LightSamples, AreFoundByMapsOntoThem) {
+  Symmetry none, ring, box;
+  ring.axis = 2;
+  std::fill_n(box.mirrors, 3, true);
+  for (const Symmetry& symmetry : {none, ring, box}) {
+    const LightSamples samples(symmetry, 2);
+    for (const vec3 light :
+         {vec3(0, -1, 0), vec3(0.3f, -0.8f, 0.2f), vec3(-0.7f, 0.1f, -0.5f), vec3(0, 0, -1)})
+      for (const auto interpolation :
+           {LightInterpolation::nearest, LightInterpolation::barycentric, LightInterpolation::rotated}) {
+        float sum = 0;
+        for (const SampleShare& share : samples.around(normalize(light), interpolation)) {
+          const float cosine = dot(share.toSample * normalize(light), samples.directions()[share.sample]);
+          EXPECT_GT(cosine, interpolation == LightInterpolation::rotated ? 0.99999f : std::cos(0.3f));
+          sum += share.weight;
+        }
+        EXPECT_NEAR(sum, 1, 1e-5f);
+      }
+  }
+}
+
+class IrradianceVolumeAs : public testing::TestWithParam<uint32_t> {
+ protected:
+  static VolumeSettings settings(uint32_t kilobytes, uint32_t photons) {
+    VolumeSettings settings = someSettings();
+    settings.representation = GetParam();
+    settings.kilobytes = kilobytes;
+    settings.photons = photons;
+    return settings;
+  }
+  const Mesh ball = makeSphere(0.5f, {.vertices = 6000});
+  const Material glass_ = glass();
+  const Material silver_ = silver();
+};
+
+// Through discs behind a glass ball, at, before and beyond its focus (1.5 radii from the centre), straight
+// and oblique.
+TEST_P(IrradianceVolumeAs, KeepsTheFluxOfABall) {
+  IrradianceVolume volume(ball, glass(), settings(90, 30), {});
+  const vec3 light = normalize(vec3(0.3f, -1, 0.2f));
+  for (const float distance : {0.6f, 0.75f, 0.9f, 1.1f}) {
+    const double flux = ballLensRings(0.5, double(distance), 1.5, double(kDisc), 1)[0];
+    EXPECT_NEAR(fluxThrough(volume, light, distance * light, light) / flux, 1, 0.03) << distance;
+  }
+  const vec3 tilted = normalize(light + 0.4f * sampleFrame(light)[0]);
+  const double flux =
+      photonsThrough(PhotonTracer(ball, glass_, Paths::transmission), light, 0.85f * light, tilted);
+  EXPECT_NEAR(fluxThrough(volume, light, 0.85f * light, tilted) / flux, 1, 0.03);
+}
+
+// Under a mirror ring in slanting light, where the nephroid has run out into a wider patch.
+TEST_P(IrradianceVolumeAs, KeepsTheFluxOfARing) {
+  const Mesh ring = makeRing(0.5f, 0.25f, 0.02f, {.vertices = 6000});
+  IrradianceVolume volume(ring, silver_, settings(360, 60), {});
+  // One of the sampled directions, so that nothing is interpolated.
+  const vec3 light = volume.lightSamples().directions()[1];
+  const vec3 down(0, light.y < 0 ? -1 : 1, 0);
+  const double flux =
+      photonsThrough(PhotonTracer(ring, silver_, Paths::transmission), light, 0.3f * down, down);
+  EXPECT_NEAR(fluxThrough(volume, light, 0.3f * down, down) / flux, 1, 0.03);
+}
+
+// Away from the ball's focus, by rings around the axis, against the closed form.
+TEST_P(IrradianceVolumeAs, ShowsABallsLightWhereItFalls) {
+  IrradianceVolume volume(ball, glass(), settings(360, 100), {});
+  constexpr std::size_t kRings = 8;
+  constexpr double kWidth = 0.05, kHeight = 1.1;
+  const std::vector<double> rings = ballLensRings(0.5, kHeight, 1.5, kWidth, kRings);
+  double error = 0, sum = 0;
+  for (std::size_t i = 0; i < kRings; ++i) {
+    constexpr int kPoints = 64;
+    double lux = 0;
+    for (int k = 0; k < kPoints; ++k) {
+      const double r = (double(i) + (k + 0.5) / kPoints) * kWidth, angle = 2.4 * k;
+      const vec3 point(float(r * std::cos(angle)), float(-kHeight), float(r * std::sin(angle)));
+      lux += double(volume.illuminance(point, vec3(0, 1, 0), vec3(0, -1, 0), LightInterpolation::rotated).y) *
+             2 * r * kWidth / kPoints;
+    }
+    const double inner = double(i) * kWidth, outer = inner + kWidth;
+    const double area = outer * outer - inner * inner;  // over pi
+    const double difference = (lux - rings[i] / std::numbers::pi) / area;
+    error += difference * difference * area;
+    sum += std::pow(rings[i] / std::numbers::pi / area, 2) * area;
+  }
+  EXPECT_LT(std::sqrt(error / sum), 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Representations, IrradianceVolumeAs,
+                         testing::Values(kRepresentationGrid, kRepresentationShells), [](const auto& test) {
+                           return test.param == kRepresentationGrid ? "Grid" : "Shells";
+                         });
+
+// What a body of revolution sends on turns with the light.
+TEST(IrradianceVolume, TurnsWithTheLightAboutAnAxis) {
+  const Mesh mesh = makeRing(0.5f, 0.3f, 0.05f, {.vertices = 4000});
+  IrradianceVolume volume(mesh, silver(), someSettings(), {});
+  const vec3 light = normalize(vec3(0.8f, -0.6f, 0));
+  const mat3 turn = glm::mat3_cast(glm::angleAxis(2.0f, vec3(0, 1, 0)));
+  for (const vec3 point : {vec3(0.2f, -0.14f, 0.1f), vec3(-0.3f, -0.1f, 0), vec3(-0.8f, -0.5f, 0.2f)}) {
+    const vec3 up(0, 1, 0);
+    const vec3 lux = volume.illuminance(point, up, light, LightInterpolation::rotated);
+    const vec3 there = volume.illuminance(turn * point, up, turn * light, LightInterpolation::rotated);
+    EXPECT_LT(length(lux - there), 5e-3f * (length(lux) + 0.1f));
+    if (lux.x > 0.01f) {
+      EXPECT_NEAR(lux.z / lux.x, 0.6f / 0.9f, 0.02f);
+    }
+  }
+}
+
+TEST(IrradianceVolume, DoesNotDependOnTheNumberOfThreads) {
+  const Mesh mesh = makePrism(0.5f, 1);
+  const auto wordsOf = [&] {
+    const SampleView sample = IrradianceVolume(mesh, glass(), someSettings(), {}).makeSample(3);
+    return std::vector<uint32_t>(sample.words.begin(), sample.words.end());
+  };
+  const std::vector<uint32_t> many = wordsOf();
+  const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(many, wordsOf());
+}
+
+class VolumeFile : public testing::Test {
+ protected:
+  VolumeFile() { bake(file, {}); }
+
+  void bake(const std::filesystem::path& to, SampleRange range) {
+    IrradianceVolume volume(mesh, glass(), settings(), {});
+    IrradianceVolume* const one = &volume;
+    Progress progress;
+    writeVolumes({&one, 1}, range, to, progress);
+  }
+  static VolumeSettings settings() {
+    VolumeSettings few = someSettings();
+    few.lightLevel = 0;
+    few.kilobytes = 8;
+    few.photons = 2;
+    return few;
+  }
+  std::string rejectionOf(const VolumeKey& expected) const {
+    try {
+      openVolumes(file, {&expected, 1});
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  }
+  std::string rejectionOf(const std::string& bytes) const {
+    writeFileAtomically(file, bytes);
+    return rejectionOf(key);
+  }
+
+  const Mesh mesh = makeBox(vec3(1, 0.7f, 0.4f));
+  const VolumeKey key = volumeKey(mesh, glass(), settings());
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "box.volume";
+};
+
+TEST_F(VolumeFile, ComesBackBitForBit) {
+  IrradianceVolume made(mesh, glass(), settings(), {});
+  IrradianceVolume read(mesh, openVolumes(file, {&key, 1})[0]);
+  ASSERT_EQ(read.lightSamples().directions().size(), made.lightSamples().directions().size());
+  for (uint32_t i = 0; i < made.lightSamples().directions().size(); ++i) {
+    EXPECT_EQ(read.sample(i).layout, made.sample(i).layout);
+    EXPECT_TRUE(std::ranges::equal(read.sample(i).words, made.sample(i).words));
+  }
+}
+
+TEST_F(VolumeFile, PartsMergeToTheSameBytes) {
+  const auto count = uint32_t(LightSamples(symmetryOf(mesh), 0).directions().size());
+  ASSERT_GE(count, 3u);
+  const std::filesystem::path first = folder / "first", second = folder / "second",
+                              merged = folder / "merged";
+  bake(first, {0, 1});
+  bake(second, {1, count});
+  const std::filesystem::path parts[] = {second, first};
+  mergeVolumes(parts, merged);
+  EXPECT_EQ(readAll(merged), readAll(file));
+  EXPECT_THROW(mergeVolumes(std::span(parts).first(1), merged), InputError);
+  EXPECT_THROW(mergeVolumes(std::span(parts).last(1), merged), InputError);
+  IrradianceVolume part(mesh, openVolumes(first, {&key, 1})[0]);
+  EXPECT_NO_THROW(part.sample(0));
+  EXPECT_THROW(part.sample(1), InputError);
+}
+
+TEST_F(VolumeFile, IsRejectedWhereItDoesNotFit) {
+  EXPECT_NE(rejectionOf(volumeKey(makeBox(vec3(1)), glass(), settings())).find("another mesh"),
+            std::string::npos);
+  EXPECT_NE(rejectionOf(volumeKey(mesh, silver(), settings())).find("another material"), std::string::npos);
+  VolumeSettings finer = settings();
+  finer.kilobytes = 9;
+  EXPECT_NE(rejectionOf(volumeKey(mesh, glass(), finer)).find("give --volume-kilobytes 8"),
+            std::string::npos);
+  finer = settings();
+  finer.paths = uint32_t(Paths::all);
+  EXPECT_NE(rejectionOf(volumeKey(mesh, glass(), finer)).find("--paths"), std::string::npos);
+}
+
+TEST_F(VolumeFile, IsRejectedWhereItIsDamaged) {
+  const std::string whole = readAll(file);
+  EXPECT_NE(rejectionOf(whole.substr(0, 50)).find("truncated"), std::string::npos);
+  EXPECT_NE(rejectionOf(whole.substr(0, whole.size() - 1)).find("truncated"), std::string::npos);
+  EXPECT_NE(rejectionOf(whole + "x").find("longer"), std::string::npos);
+  EXPECT_NE(rejectionOf(std::string(2000, 'x')).find("is not one"), std::string::npos);
+  for (const std::size_t place : {std::size_t{40}, std::size_t{100}, whole.size() / 2, whole.size() - 3}) {
+    std::string damaged = whole;
+    damaged[place] = char(damaged[place] ^ 4);
+    EXPECT_NE(rejectionOf(damaged).find("damaged"), std::string::npos) << place;
+  }
+  std::string other = whole;
+  other[8] = char(77);
+  EXPECT_NE(rejectionOf(other).find("version"), std::string::npos);
+}
+
+TEST_F(VolumeFile, TheCacheKeepsWhatIsMade) {
+  const std::filesystem::path cache = folder / "cache";
+  IrradianceVolume made(mesh, glass(), settings(), cache);
+  EXPECT_FALSE(cachedSample(cache, key, made.symmetry(), 1));
+  const SampleView sample = made.sample(1);
+  const std::optional<SampleView> kept = cachedSample(cache, key, made.symmetry(), 1);
+  ASSERT_TRUE(kept);
+  EXPECT_TRUE(std::ranges::equal(kept->words, sample.words));
+}
+
+}  // namespace
+}  // namespace nephroid
