@@ -16,8 +16,10 @@ namespace nephroid {
 namespace {
 
 constexpr std::size_t kBlock = 256;         // triangles that one task looks at
-constexpr float kSmallestSide = 3;          // pixels: shorter ones are not cut
+constexpr float kSmallestSide = 3;          // pixels: shorter ones are not cut; longer ones too where
+constexpr float kMostPieces = 5000;         // more pieces than this would be cut
 constexpr float kLongestStraightSide = 12;  // pixels: between nearer vertices rays are taken as they are
+constexpr float kLargestSide = 32;          // pixels: where sides are longer, most of the pieces are steady
 constexpr uint32_t kMostCuts = 8;
 // Rays that differ by more go different ways: in direction, and, as parts of the caster's size, in where they
 // leave it.
@@ -64,8 +66,13 @@ bool isLost(const OutgoingRay& ray) {
 class Cutter {
  public:
   Cutter(const TransportSource& sourceToAsk, const TransportQuery& queryOf, const View& viewOf,
-         float sizeOfCaster, bool curved, const Triangle& whole)
-      : source(sourceToAsk), query(queryOf), view(viewOf), size(sizeOfCaster), isCurved(curved) {
+         float smallest, float sizeOfCaster, bool curved, const Triangle& whole)
+      : source(sourceToAsk),
+        query(queryOf),
+        view(viewOf),
+        smallestSide(smallest),
+        size(sizeOfCaster),
+        isCurved(curved) {
     for (int i = 0; i < 3; ++i) {
       positions[i] = whole[std::size_t(i)].position;
       normals[i] = whole[std::size_t(i)].normal;
@@ -129,7 +136,7 @@ class Cutter {
     if (isOutside(view, t)) return;
     const float longest = std::max({pixels(t[0], t[1]), pixels(t[1], t[2]), pixels(t[2], t[0])});
     const bool isSteady = sameWay(t[0], t[1]) && sameWay(t[0], t[2]) && sameWay(t[1], t[2]);
-    if (cuts == 0 || longest < (isSteady ? kLongestStraightSide : kSmallestSide)) {
+    if (cuts == 0 || longest < (isSteady ? kLongestStraightSide : smallestSide)) {
       pieces.push_back(isSteady ? t : ofOneRay(t));
       return;
     }
@@ -154,7 +161,8 @@ class Cutter {
   const TransportSource& source;
   const TransportQuery& query;
   const View& view;
-  const float size;  // m
+  const float smallestSide;  // pixels
+  const float size;          // m
   const bool isCurved;
   mat3 positions{1}, normals{1};
   vec3 geometricNormal{0};
@@ -165,6 +173,8 @@ class Cutter {
 struct Block {
   std::vector<uint32_t> indices;
   std::vector<Triangle> pieces;
+  std::vector<Triangle> parting;  // to be cut
+  float squarePixels = 0;         // of their longest sides
 };
 
 class Collector {
@@ -193,6 +203,13 @@ class Collector {
     oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
       const std::size_t end = std::min(mesh.triangles.size(), (block + 1) * kBlock);
       for (std::size_t t = block * kBlock; t < end; ++t) add(mesh.triangles[t], parts[block]);
+    });
+    float squarePixels = 0;
+    for (const Block& part : parts) squarePixels += part.squarePixels;
+    const float smallestSide = std::max(kSmallestSide, std::sqrt(squarePixels / kMostPieces));
+    oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      for (const Triangle& t : parts[block].parting)
+        Cutter(source, query, view, smallestSide, size, mesh.isCurved, t).add(t, parts[block].pieces);
     });
     SightMesh result;
     result.vertices.reserve(corners.size());
@@ -226,11 +243,13 @@ class Collector {
            t[0].ray.signature == t[1].ray.signature && t[0].ray.signature == t[2].ray.signature;
   }
 
-  bool isLong(const uvec3& t) const {
+  float longestSide(const uvec3& t) const {  // pixels
     const vec3 a = corners[t.x].position, b = corners[t.y].position, c = corners[t.z].position;
-    const float longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
-    return longest > kLongestStraightSide * view.pixelAngle * distance(a, query.emitter.position);
+    return std::max({distance(a, b), distance(b, c), distance(c, a)}) /
+           (view.pixelAngle * std::max(distance(a, query.emitter.position), 1e-6f));
   }
+
+  bool isLong(const uvec3& t) const { return longestSide(t) > kLongestStraightSide; }
 
   bool facesAway(const Corner& corner) const {
     return facing * dot(corner.position - query.emitter.position, corner.normal) >= 0;
@@ -258,8 +277,11 @@ class Collector {
       block.pieces.push_back(whole);
       return;
     }
+    if (isOutside(view, whole)) return;
     for (int i = 0; i < 3; ++i) whole[std::size_t(i)].weights = mat3(1)[i];
-    Cutter(source, query, view, size, mesh.isCurved, whole).add(whole, block.pieces);
+    block.parting.push_back(whole);
+    const float longest = std::min(longestSide(t), kLargestSide);
+    block.squarePixels += longest * longest;
   }
 
   const TransportSource& source;
