@@ -1,10 +1,11 @@
-# The library, its headers, the program, and what find_package(nephroid) reads. Shaders are inside the library.
+# The library, its headers, the program with its scenes, and what find_package(nephroid) reads. Shaders are inside the library.
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/nephroid)
 install(TARGETS nephroid EXPORT nephroidTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nephroid
         FILES_MATCHING PATTERN *.h)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/nephroid)
 install(EXPORT nephroidTargets NAMESPACE nephroid:: DESTINATION ${package_folder})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/nephroidConfig.cmake.in
                               ${CMAKE_BINARY_DIR}/nephroidConfig.cmake INSTALL_DESTINATION ${package_folder})

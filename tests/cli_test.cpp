@@ -36,6 +36,7 @@ TEST(CommandLine, NamesTheNearestOfWhatItDoesNotKnow) {
   expectWrong({"info", "--hepl"}, "did you mean '--help'?");
   expectWrong({"info", "a.toml", "b.toml"}, "toml");
   expectWrong({"bench", "light-transport-tabel"}, "did you mean 'light-transport-table'?");
+  expectWrong({"bench", "papers-1-2", "--scenes", "nowhere"}, "nowhere/glass-ball.toml");
 }
 
 constexpr const char* kFloor = R"(

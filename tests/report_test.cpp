@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/error.h"
 #include "report/paper_tables.h"
@@ -19,10 +21,34 @@ TEST(PaperTables, SetTheirFiguresBesideOurs) {
   EXPECT_EQ(json[0]["figures"][0]["ours"], 12.25);
 }
 
+TEST(PaperTables, SayWhatIsAskedAndHowFarItIsReached) {
+  const PaperTable table{"name",
+                         "title",
+                         {{"figure 1", "time", "s", 3600, 0.5, 0.75, true},
+                          {"figure 1", "rate", "1/s", 5.1, 15.3, 10.2},
+                          {"figure 2", "rate", "1/s", 7, kNoFigure, 14}}};
+  EXPECT_DOUBLE_EQ(table.figures[0].ratio(), 1.5);
+  EXPECT_DOUBLE_EQ(table.figures[1].ratio(), 1.5);
+  std::istringstream lines(describe(table));
+  std::string line;
+  for (int i = 0; i < 4; ++i) std::getline(lines, line);
+  std::istringstream first(line.substr(std::string("figure 1").size()));
+  for (const double expected : {3600.0, 0.75, 0.5, 1.5, 5.1, 10.2, 15.3, 1.5}) {
+    double value = 0;
+    first >> value;
+    EXPECT_EQ(value, expected) << line;
+  }
+  std::getline(lines, line);
+  EXPECT_EQ(std::count(line.begin(), line.end(), '-'), 6) << line;
+  const auto json = nlohmann::json::parse(paperTablesJson({table}));
+  EXPECT_EQ(json[0]["figures"][1]["asked"], 10.2);
+  EXPECT_TRUE(json[0]["figures"][2]["ours"].is_null());
+}
+
 TEST(PaperTables, AreKnownByName) {
   Progress progress;
   EXPECT_FALSE(paperTableNames().empty());
-  EXPECT_THROW(measurePaperTable("none", progress), InputError);
+  EXPECT_THROW(measurePaperTable("none", {}, progress), InputError);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace {
 struct BenchOptions {
   std::vector<std::string> names;
   std::filesystem::path json;
+  PaperBench bench;
   bool isQuiet = false;
 };
 
@@ -19,7 +20,7 @@ void runBench(const BenchOptions& options) {
   Progress progress(progressDisplay(options.isQuiet));
   std::vector<PaperTable> tables;
   for (const std::string& name : options.names.empty() ? paperTableNames() : options.names) {
-    tables.push_back(measurePaperTable(name, progress));
+    tables.push_back(measurePaperTable(name, options.bench, progress));
     std::cout << describe(tables.back()) << std::flush;
   }
   if (!options.json.empty()) writeFileAtomically(options.json, paperTablesJson(tables));
@@ -35,6 +36,13 @@ Command addBench(CLI::App& program) {
       ->type_name("");
   command->add_option("--json", options->json, "Where to write the figures as JSON as well")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--scenes", options->bench.scenes,
+          "The folder of the papers' scenes. Left out: scenes/ of the source tree that the program is in, or "
+          "where it was installed")
+      ->type_name("DIR");
+  addDevice(*command, options->bench.device);
   addQuiet(*command, options->isQuiet);
   return {command, [options] { runBench(*options); }};
 }

@@ -1,19 +1,19 @@
 #include "report/paper_tables.h"
 
+#include <algorithm>
 #include <array>
-#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "core/error.h"
-#include "core/stats.h"
+#include "report/papers_1_2.h"
+#include "report/table_times.h"
 #include "scene/shapes.h"
-#include "transport/table/table.h"
 
 namespace nephroid {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Iwasaki 2005 ("A Method for Fast Rendering of Caustics"), table 1: rows with one caster of a shape that is
 // at hand.
@@ -27,41 +27,101 @@ constexpr std::array<TableRow, 3> kTableRows{{{"figure 8 (a)", 6400, 10.6, 1.2},
                                               {"figure 9 (b)", 12800, 21.1, 4.0},
                                               {"figure 11 (b)", 5100, 8.4, 1.0}}};
 
-constexpr int kRuns = 3;
-
-double medianBuildSeconds(const Mesh& mesh, std::size_t& bytes, Progress& progress) {
-  std::vector<double> seconds;
-  for (int run = 0; run < kRuns; ++run) {
-    const auto start = Clock::now();
-    bytes = buildTable(mesh, vec3(1.5f), {}, progress).sizeInBytes();
-    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
-  }
-  return median(seconds);
-}
-
-PaperTable lightTransportTables(Progress& progress) {
+PaperTable lightTransportTables(const PaperBench&, Progress& progress) {
   PaperTable table{"light-transport-table",
                    "Paper 1, table 1: light transport tables of 129 directions (theirs: ball, torus and "
                    "knot; ours: balls of "
                    "as many vertices)",
                    {}};
   for (const TableRow& row : kTableRows) {
-    const Mesh ball = makeSphere(0.5f, {.vertices = row.vertices});
-    std::size_t bytes = 0;
-    const double seconds = medianBuildSeconds(ball, bytes, progress);
-    table.figures.push_back(
-        {row.figure, "vertices", "", double(row.vertices), double(ball.positions.size())});
-    table.figures.push_back({row.figure, "table size", "MB", row.megabytes, double(bytes) / 1e6});
-    table.figures.push_back({row.figure, "preprocessing", "s", row.hours * 3600, seconds});
+    const TableTimes times = timeTable(makeSphere(0.5f, {.vertices = row.vertices}), vec3(1.5f), progress);
+    table.figures.push_back({row.figure, "vertices", "", double(row.vertices), double(times.vertices)});
+    table.figures.push_back({row.figure, "table size", "MB", row.megabytes, double(times.bytes) / 1e6});
+    table.figures.push_back({row.figure, "preprocessing", "s", row.hours * 3600, times.seconds});
   }
   return table;
 }
 
 struct Entry {
   const char* name;
-  PaperTable (*measure)(Progress&);
+  PaperTable (*measure)(const PaperBench&, Progress&);
 };
-constexpr std::array<Entry, 1> kTables{{{"light-transport-table", lightTransportTables}}};
+constexpr std::array<Entry, 2> kTables{
+    {{"light-transport-table", lightTransportTables}, {"papers-1-2", measurePapers1And2}}};
+
+// A line for each row, and beside it for each quantity what the paper has, what is asked for (where something
+// is), what is measured here and how many times as good as asked that is.
+class Layout {
+ public:
+  explicit Layout(const std::vector<PaperFigure>& figures) {
+    for (const PaperFigure& figure : figures) {
+      rowWidth = std::max(rowWidth, figure.row.size());
+      Column& column = columnOf(figure);
+      column.isAsked = column.isAsked || !std::isnan(figure.asked);
+    }
+  }
+
+  std::string head() const {
+    std::string names = padded("", rowWidth), parts = names;
+    for (const Column& column : columns) {
+      const std::size_t width = kNumberWidth * (column.isAsked ? 4 : 2);
+      names += "  " + padded(column.name, width);
+      parts += "  " + toTheRight("paper");
+      if (column.isAsked) parts += toTheRight("asked");
+      parts += toTheRight("here");
+      if (column.isAsked) parts += toTheRight("ratio");
+    }
+    return names + "\n" + parts + "\n";
+  }
+
+  std::string line(std::span<const PaperFigure> row) const {
+    std::string text = padded(row.front().row, rowWidth);
+    for (const Column& column : columns) {
+      const auto found =
+          std::ranges::find_if(row, [&](const PaperFigure& f) { return nameOf(f) == column.name; });
+      const PaperFigure figure = found == row.end() ? PaperFigure{} : *found;
+      text += "  " + number(figure.paper);
+      if (column.isAsked) text += number(figure.asked);
+      text += number(figure.ours);
+      if (column.isAsked) text += number(figure.ratio());
+    }
+    return text + "\n";
+  }
+
+ private:
+  static constexpr std::size_t kNumberWidth = 8;
+  struct Column {
+    std::string name;
+    bool isAsked = false;
+  };
+
+  static std::string nameOf(const PaperFigure& figure) {
+    return figure.quantity + (figure.unit.empty() ? "" : " (" + figure.unit + ")");
+  }
+  static std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(text.size(), width), ' ');
+    return text;
+  }
+  static std::string toTheRight(const std::string& text) {
+    return std::string(kNumberWidth - std::min(text.size(), kNumberWidth), ' ') + text;
+  }
+  static std::string number(double value) {
+    if (std::isnan(value)) return toTheRight("-");
+    char text[32];
+    std::snprintf(text, sizeof text, value < 1000 ? "%.3g" : "%.0f", value);
+    return toTheRight(text);
+  }
+
+  Column& columnOf(const PaperFigure& figure) {
+    const std::string name = nameOf(figure);
+    const auto known = std::ranges::find(columns, name, &Column::name);
+    if (known != columns.end()) return *known;
+    return columns.emplace_back(Column{name, false});
+  }
+
+  std::size_t rowWidth = 0;
+  std::vector<Column> columns;
+};
 
 }  // namespace
 
@@ -71,21 +131,21 @@ std::vector<std::string> paperTableNames() {
   return names;
 }
 
-PaperTable measurePaperTable(const std::string& name, Progress& progress) {
+PaperTable measurePaperTable(const std::string& name, const PaperBench& bench, Progress& progress) {
   for (const Entry& entry : kTables)
-    if (name == entry.name) return entry.measure(progress);
-  throw InputError("there is no table '" + name + "' in this version; there is: " + kTables[0].name);
+    if (name == entry.name) return entry.measure(bench, progress);
+  std::string all;
+  for (const Entry& entry : kTables) all += (all.empty() ? "" : ", ") + std::string(entry.name);
+  throw InputError("there is no table '" + name + "' in this version; there are: " + all);
 }
 
 std::string describe(const PaperTable& table) {
-  std::string text = table.title + "\n";
-  char line[160];
-  std::snprintf(line, sizeof line, "  %-14s %-14s %12s %12s\n", "", "", "paper", "here");
-  text += line;
-  for (const PaperFigure& figure : table.figures) {
-    std::snprintf(line, sizeof line, "  %-14s %-14s %12.5g %12.5g %s\n", figure.row.c_str(),
-                  figure.quantity.c_str(), figure.paper, figure.ours, figure.unit.c_str());
-    text += line;
+  const Layout layout(table.figures);
+  std::string text = table.title + "\n" + layout.head();
+  const std::span<const PaperFigure> figures = table.figures;
+  for (std::size_t first = 0, last; first < figures.size(); first = last) {
+    for (last = first; last < figures.size() && figures[last].row == figures[first].row;) ++last;
+    text += layout.line(figures.subspan(first, last - first));
   }
   return text;
 }
@@ -100,7 +160,9 @@ std::string paperTablesJson(const std::vector<PaperTable>& tables) {
                          {"quantity", figure.quantity},
                          {"unit", figure.unit},
                          {"paper", figure.paper},
-                         {"ours", figure.ours}});
+                         {"asked", figure.asked},
+                         {"ours", figure.ours},
+                         {"ratio", figure.ratio()}});
     document.push_back({{"name", table.name}, {"title", table.title}, {"figures", figures}});
   }
   return document.dump(2) + "\n";

@@ -1,6 +1,8 @@
 // The papers' tables measured again: theirs beside ours.
 #pragma once
 
+#include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -8,25 +10,40 @@
 
 namespace nephroid {
 
+// Of a figure that there is none of.
+inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
+
 // One number of a table.
 struct PaperFigure {
   std::string row;       // of the table: "figure 8 (a)"
   std::string quantity;  // "table size"
   std::string unit;
-  double paper = 0;
-  double ours = 0;
+  double paper = kNoFigure;
+  double ours = kNoFigure;
+  double asked = kNoFigure;  // what ours should reach
+  bool lessIsBetter = false;
+
+  // How many times as good as asked for.
+  double ratio() const { return lessIsBetter ? asked / ours : ours / asked; }
 };
 
 struct PaperTable {
   std::string name;   // what a user asks for it by
-  std::string title;  // which table of which paper, and what the paper measured on
+  std::string title;  // which table of which paper, and what it was measured on
   std::vector<PaperFigure> figures;
+};
+
+// Where and on what tables are measured.
+struct PaperBench {
+  std::filesystem::path scenes;  // the folder of the papers' scenes; empty: looked for by findPaperScenes
+  std::string device;            // as gpu::DeviceOptions has it
 };
 
 std::vector<std::string> paperTableNames();
 
-// Measures one of paperTableNames() on this machine.
-PaperTable measurePaperTable(const std::string& name, Progress& progress);
+// Measures one of paperTableNames() on this machine. Frame rates are left out, and the title says why, where
+// there is no device that could draw. Throws InputError where a scene is not there.
+PaperTable measurePaperTable(const std::string& name, const PaperBench& bench, Progress& progress);
 
 // Lines for a reader, and the same as JSON.
 std::string describe(const PaperTable& table);

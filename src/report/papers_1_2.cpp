@@ -1,0 +1,159 @@
+#include "report/papers_1_2.h"
+
+#include <array>
+#include <chrono>
+#include <optional>
+
+#include "core/error.h"
+#include "core/stats.h"
+#include "render/frame.h"
+#include "report/table_times.h"
+#include "scene/load.h"
+#include "techniques/registry.h"
+
+namespace nephroid {
+namespace {
+
+struct Row {
+  const char* paper;
+  const char* figure;
+  const char* scene;
+  double vertices;
+  double megabytes;  // of the light transport table
+  double hours;      // of preprocessing
+  double framesPerSecond;
+  double timesAsked;  // of that frame rate
+  uint32_t slices;
+};
+
+// Iwasaki 2005, table 1 and section 7; Iwasaki 2005b, section 5, which gives neither sizes nor times of its
+// tables.
+constexpr std::array<Row, 14> kRows{{
+    {"1", "8 (a)", "glass-ball", 6400, 10.6, 1.2, 5.1, 2, 6},
+    {"1", "8 (b)", "glass-torus", 6400, 10.6, 1.2, 5.3, 2, 6},
+    {"1", "9 (a)", "torus-knot", 13000, 21.4, 5.1, 2.8, 2, 6},
+    {"1", "9 (b)", "glass-teapot", 12800, 21.1, 4.0, 3.0, 2, 6},
+    {"1", "10 (a)", "knot-spotlight", 6400, 10.6, 1.2, 5.5, 2, 1},
+    {"1", "10 (b)", "teapot-three-lights", 12800, 21.1, 4.0, 1.0, 2, 6},
+    {"1", "10 (c)", "bunny-line-light", 8900, 11.6, 1.9, 1.3, 2, 6},
+    {"1", "11 (a)", "coloured-horse", 8900, 11.6, 1.9, 3.6, 2, 6},
+    {"1", "11 (b)", "coloured-bunny", 5100, 8.4, 1.0, 7.1, 2, 6},
+    {"2", "1", "ball-over-teapot", 6400, kNoFigure, kNoFigure, 18, 1, 1},
+    {"2", "6 (a)", "coloured-ball-over-statue", 6400, kNoFigure, kNoFigure, 7.8, 1, 6},
+    {"2", "6 (b)", "ball-over-statue-in-room", 6400, kNoFigure, kNoFigure, 7.8, 1, 6},
+    {"2", "6 (c)", "teapot-over-statue", 13000, kNoFigure, kNoFigure, 6.6, 1, 6},
+    {"2", "6 (d)", "bunny-line-light-over-statue", 8900, kNoFigure, kNoFigure, 3.6, 1, 6},
+}};
+
+constexpr double kTimesFasterAsked = 5000;  // preprocessing
+constexpr int kWarmUpFrames = 2;            // which make images and programs
+constexpr int kFrames = 15;
+
+// Turned about the axis y through the origin, then moved.
+struct Motion {
+  quat turn{1, 0, 0, 0};
+  vec3 step{0};  // m
+  vec3 point(vec3 p) const { return turn * p + step; }
+};
+
+Motion motion(float degrees, vec3 step) {
+  return {glm::angleAxis(glm::radians(degrees), vec3(0, 1, 0)), step};
+}
+
+// Light, casters, receivers and camera, each on a way of its own.
+Scene moved(const Scene& start, int frame) {
+  const auto k = static_cast<float>(frame);
+  const Motion ofReceivers = motion(0.4f * k, {0, 0, 0.002f * k}),
+               ofCasters = motion(-0.7f * k, {0.003f * k, 0, 0}),
+               ofLights = motion(0.9f * k, {0, 0.004f * k, 0}),
+               ofCamera = motion(-0.5f * k, {0, 0.002f * k, 0});
+  Scene scene = start;
+  for (Object& object : scene.objects) {
+    const Motion& way = scene.isCaster(object) ? ofCasters : ofReceivers;
+    object.placement.translation = way.point(object.placement.translation);
+    object.placement.rotation = normalize(way.turn * object.placement.rotation);
+  }
+  for (Light& light : scene.lights) {
+    light.position = ofLights.point(light.position);
+    light.end = ofLights.point(light.end);
+    light.direction = ofLights.turn * light.direction;
+  }
+  scene.camera.position = ofCamera.point(scene.camera.position);
+  return scene;
+}
+
+double framesPerSecond(gpu::Device& device, const Scene& scene, const Row& row, Progress& progress) {
+  TechniqueSettings settings;
+  Stats stats;
+  SceneTransport transport(scene, settings, progress);
+  const auto technique = makeTechnique({device, settings, transport, stats});
+  RenderSettings render;
+  render.sight.slices = row.slices;
+  Renderer renderer(device, transport, render, *technique);
+  progress.begin(std::string("frames of ") + row.scene, kWarmUpFrames + kFrames);
+  std::vector<double> seconds;
+  for (int frame = 0; frame < kWarmUpFrames + kFrames; ++frame) {
+    const Scene now = moved(scene, frame);
+    const auto start = std::chrono::steady_clock::now();
+    renderer.render(now);
+    if (frame >= kWarmUpFrames)
+      seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    progress.advance();
+  }
+  progress.finish();
+  return 1 / median(seconds);
+}
+
+void addRow(PaperTable& table, const Row& row, const Scene& scene, gpu::Device* device, Progress& progress) {
+  const TableTimes tables = timeTables(scene, progress);
+  const std::string name = std::string("paper ") + row.paper + ", " + row.figure + " " + row.scene;
+  table.figures.push_back({name, "vertices", "", row.vertices, double(tables.vertices)});
+  table.figures.push_back({name, "table size", "MB", row.megabytes, double(tables.bytes) / 1e6});
+  const double paperSeconds = row.hours * 3600;
+  table.figures.push_back(
+      {name, "preprocessing", "s", paperSeconds, tables.seconds, paperSeconds / kTimesFasterAsked, true});
+  table.figures.push_back({name, "frame rate", "1/s", row.framesPerSecond,
+                           device ? framesPerSecond(*device, scene, row, progress) : kNoFigure,
+                           row.timesAsked * row.framesPerSecond});
+}
+
+}  // namespace
+
+std::filesystem::path findPaperScenes() {
+  const std::string needed = std::string(kRows[0].scene) + ".toml";
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  std::string looked;
+  for (const char* place : {"../share/nephroid/scenes", "../../scenes", "../../../scenes"}) {
+    const auto folder = (program / place).lexically_normal();
+    if (std::filesystem::is_regular_file(folder / needed, error)) return folder;
+    looked += (looked.empty() ? "" : ", ") + folder.string();
+  }
+  throw InputError("the papers' scenes are not there; looked in " + looked +
+                   " (name their folder with --scenes)");
+}
+
+PaperTable measurePapers1And2(const PaperBench& bench, Progress& progress) {
+  const std::filesystem::path folder = bench.scenes.empty() ? findPaperScenes() : bench.scenes;
+  std::vector<Scene> scenes;  // what is wrong with one is told before anything is measured
+  for (const Row& row : kRows) scenes.push_back(loadScene(folder / (std::string(row.scene) + ".toml")));
+  std::optional<gpu::Device> device;
+  std::string on;
+  try {
+    device.emplace(gpu::DeviceOptions{.device = bench.device});
+    on = "on " + device->info().name;
+  } catch (const RuntimeFailure& none) {
+    on = std::string("without frame rates: ") + none.what();
+  }
+  PaperTable table{
+      "papers-1-2",
+      "Paper 1, table 1, and paper 2: 640 x 480, tables of 129 directions, light, casters, receivers and "
+      "camera moving; " +
+          on,
+      {}};
+  for (std::size_t i = 0; i < kRows.size(); ++i)
+    addRow(table, kRows[i], scenes[i], device ? &*device : nullptr, progress);
+  return table;
+}
+
+}  // namespace nephroid
