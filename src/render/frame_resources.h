@@ -2,8 +2,8 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <map>
+#include <tuple>
 
 #include "gpu/program.h"
 #include "gpu/resources.h"
@@ -43,7 +43,9 @@ struct CasterTraits {
   bool areSeen = false;
   bool reflect = false;
   bool disperse = false;
-  auto operator<=>(const CasterTraits&) const = default;
+  bool operator<(const CasterTraits& other) const {
+    return std::tie(areSeen, reflect, disperse) < std::tie(other.areSeen, other.reflect, other.disperse);
+  }
 };
 
 struct FramePrograms {
