@@ -8,7 +8,7 @@
 #include "gpu/transfer.h"
 #include "gpu_fixture.h"
 #include "shaders/deposit_comp.h"
-#include "techniques/illumination_textures/shader_data.h"
+#include "techniques/planes/shader_data.h"
 #include "techniques/registry.h"
 #include "test_meshes.h"
 
@@ -50,6 +50,7 @@ Beam beamThrough(vec2 a, vec2 b, vec2 c, std::optional<vec3> target = std::nullo
     beam.position[i] = place - beam.direction[i];
   }
   beam.flux = vec3(1);
+  beam.reach = vec3(kUnboundedReach);
   return beam;
 }
 
@@ -73,7 +74,7 @@ std::vector<Beam> someBeams(uint32_t count, std::optional<vec3> target = std::nu
 
 class IlluminationTexturesGpuTest : public GpuTest {
  protected:
-  // Units of flux by layer, as textureLayer numbers them, and texel. Flat planes, or bent onto a surface
+  // Units of flux by layer, as textureIndex numbers them, and texel. Flat planes, or bent onto a surface
   // across the light at `receiverDepth` (m along axisW).
   using Textures = std::vector<std::vector<uint32_t>>;
   Textures deposit(const std::vector<Beam>& beams, const PlaneSet& set, uint32_t channels = 1,
@@ -86,7 +87,7 @@ class IlluminationTexturesGpuTest : public GpuTest {
     };
     const gpu::Image depths = image("depths", VK_FORMAT_D32_SFLOAT, kWindows);
     const gpu::Image normals = image("normals", VK_FORMAT_R32_UINT, kWindows);
-    const uint32_t layers = textureLayer(set, 0, kWindows, channels);
+    const uint32_t layers = layersOfChannel(set) * channels;
     const gpu::Image textures = image("textures", VK_FORMAT_R32_UINT, layers);
     const float depth =
         (receiverDepth.value_or(0) - set.nearestDepth) / (set.farthestDepth - set.nearestDepth);
@@ -98,7 +99,7 @@ class IlluminationTexturesGpuTest : public GpuTest {
       for (uint32_t window = 0; window < kWindows; ++window)
         commands.render({.colors = {}, .depth = gpu::DepthAttachment{&depths, window, depth}}, [] {});
       commands.barrier();
-      commands.dispatch(program, {count, 1, 1}, DepositConstants{set, from.address(), count},
+      commands.dispatch(program, {count, 1, 1}, DepositConstants{set, from.address(), count, float(kSize)},
                         {depths, normals, textures});
     });
     Textures units;
@@ -107,10 +108,15 @@ class IlluminationTexturesGpuTest : public GpuTest {
     return units;
   }
 
-  // Part of all flux that a plane's texture holds, where there is one channel.
+  // Part of all flux that a plane's texture holds and its coarse part, where there is one channel.
   static double fluxOn(const Textures& units, const PlaneSet& set, uint32_t plane, uint32_t window) {
-    const std::vector<uint32_t>& texels = units[textureLayer(set, plane, window, 1)];
-    return std::accumulate(texels.begin(), texels.end(), 0.0) / double(kUnitsOfAllFlux);
+    const uint32_t index = textureIndex(set, plane, window);
+    const std::vector<uint32_t>& coarse = units[coarseLayer(set, index)];
+    const uvec2 tile = uvec2(coarseTile(index)) * (kSize / kCoarseness);
+    double sum = std::accumulate(units[index].begin(), units[index].end(), 0.0);
+    for (uint32_t y = tile.y; y < tile.y + kSize / kCoarseness; ++y)
+      for (uint32_t x = tile.x; x < tile.x + kSize / kCoarseness; ++x) sum += coarse[y * kSize + x];
+    return sum / double(kUnitsOfAllFlux);
   }
 };
 
@@ -127,7 +133,7 @@ TEST_F(IlluminationTexturesGpuTest, HoldWhatTheHostDeposits) {
             const double wanted = expected[texel][int(c)] / double(set.luxMetresSquaredPerUnit[int(c)]);
             // Half a unit for each beam that may meet the texel, and what float leaves of the corners'
             // digits.
-            ASSERT_NEAR(units[textureLayer(set, plane, window, channels) + c][texel], wanted,
+            ASSERT_NEAR(units[textureIndex(set, plane, window) + c * layersOfChannel(set)][texel], wanted,
                         0.5 * double(beams.size()) + 1e-3 * wanted + 1e-6 * double(kUnitsOfAllFlux))
                 << "window " << window << ", plane " << plane << ", texel " << texel;
           }
@@ -195,7 +201,7 @@ TEST_F(IlluminationTexturesGpuTest, HoldLightWhereItArrivesWhenTheyFollowReceive
     const auto expected = depositFlux(beams, planeGrid(set, 1, window), {kSize, kSize});
     for (uint32_t texel = 0; texel < kSize * kSize; ++texel) {
       const double wanted = expected[texel].x / double(set.luxMetresSquaredPerUnit.x);
-      ASSERT_NEAR(units[textureLayer(set, 1, window, 1)][texel], wanted,
+      ASSERT_NEAR(units[textureIndex(set, 1, window)][texel], wanted,
                   0.5 * double(beams.size()) + 1e-3 * wanted + 1e-6 * double(kUnitsOfAllFlux))
           << "window " << window << ", texel " << texel;
     }

@@ -13,7 +13,7 @@
 #include "scene/emitters.h"
 #include "scene/mesh_checks.h"
 #include "scene/shapes.h"
-#include "techniques/illumination_textures/plan.h"
+#include "techniques/planes/plan.h"
 #include "transport/queries.h"
 #include "transport/table/entry.h"
 #include "transport/table/table_source.h"
@@ -125,7 +125,7 @@ TEST(TableSource, MotionOfCasterReceiverAndLightTracesNoRay) {
     const BeamSet set =
         buildBeams(scene, source, queries[0].query, queries[0].bandColor, {.refineDepth = 0, .targets = {}});
     EXPECT_GT(set.beams.size(), 1000u);
-    EXPECT_EQ(planPlanes(set.beams, receiverBoxes(scene), 4, 512).planes, 4u);
+    EXPECT_EQ(planAlongLight(set.beams, receiverBoxes(scene), 4, 512).planes, 4u);
   }
   EXPECT_EQ(raysTraced(), before);
 }

@@ -10,7 +10,7 @@ struct Beam {
   vec3 position[3];   // m, where its corner rays leave the caster
   vec3 direction[3];  // unit
   vec3 flux;          // lm it carries, the same through every cross-section
-  float reach;        // m along its corner rays to the first opaque surface, the farthest of the three
+  vec3 reach;         // m along each corner ray to the first opaque surface; kUnboundedReach: not known
 };
 
 SHARED_END

@@ -236,7 +236,7 @@ class Builder {
         beam.position[i] = t[i].ray.position;
         beam.direction[i] = t[i].ray.direction;
         beam.flux += flux * t[i].ray.transmittance / 3.0f;
-        beam.reach = std::max(beam.reach, t[i].ray.reach);
+        beam.reach[i] = t[i].ray.reach;
       }
       set.beams.push_back(beam);
       return;
@@ -260,7 +260,7 @@ class Builder {
         beam.direction[i] = ray.direction;
       }
       beam.flux = 0.5f * flux;
-      beam.reach = t[corner].ray.reach;
+      beam.reach = vec3(t[corner].ray.reach);
       set.beams.push_back(beam);
     }
   }

@@ -3,10 +3,27 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
+
 namespace nephroid {
 namespace {
 
 using Range = oneapi::tbb::blocked_range<std::size_t>;
+
+bool isFlat(const Mesh& mesh) {
+  return std::ranges::all_of(mesh.normals,
+                             [&](vec3 normal) { return dot(normal, mesh.normals[0]) > 1 - 1e-6f; });
+}
+
+// One another, or a part of themselves.
+bool mayHide(const Scene& scene) {
+  uint32_t receivers = 0;
+  for (const Object& object : scene.objects) {
+    if (scene.isCaster(object)) continue;
+    if (++receivers > 1 || !isFlat(scene.meshOf(object))) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -17,7 +34,10 @@ bool hasTable(const Scene& scene, const Object& object) {
 
 TableSource::TableSource(const Scene& sceneOfTables, std::vector<std::optional<TransportTable>> tableOfObject,
                          const TracedSource& tracedSource)
-    : scene(sceneOfTables), tables(std::move(tableOfObject)), traced(tracedSource) {}
+    : scene(sceneOfTables),
+      tables(std::move(tableOfObject)),
+      traced(tracedSource),
+      mayReceiversHide(mayHide(sceneOfTables)) {}
 
 bool TableSource::isTabulated(const TransportQuery& query) const {
   return tables[query.object] && (query.paths == Paths::transmission || query.isSight) &&
@@ -37,7 +57,7 @@ void TableSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay>
 
 void TableSource::meetScene(const TransportQuery& query, std::span<OutgoingRay> rays) const {
   const bool mayBeShaded = traced.mayBeShaded(query);
-  bool mayGoOn = false;
+  bool mayGoOn = mayReceiversHide;
   for (uint32_t i = 0; i < scene.objects.size(); ++i)
     mayGoOn |= i != query.object && scene.isCaster(scene.objects[i]);
   if (!mayBeShaded && !mayGoOn) return;

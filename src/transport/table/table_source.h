@@ -14,9 +14,9 @@ namespace nephroid {
 bool hasTable(const Scene& scene, const Object& object);
 
 // Rays looked up at the vertices of casters that have a table, wherever they stand. A table knows its caster
-// alone: what may stand before it, and other casters behind it, are looked for with a ray each. What no table
-// holds (mirrors, reflection,
-// a light inside a medium; sight that is totally reflected) is traced.
+// alone: what may stand before it, and other casters behind it, are looked for with a ray each, and so is the
+// reach where receivers may hide one another. What no table holds (mirrors, reflection, a light inside a
+// medium; sight that is totally reflected) is traced.
 class TableSource : public TransportSource {
  public:
   // `tables` has one for each object of the scene, or none where the object is to be traced. Scene and
@@ -36,6 +36,7 @@ class TableSource : public TransportSource {
   const Scene& scene;
   std::vector<std::optional<TransportTable>> tables;
   const TracedSource& traced;
+  const bool mayReceiversHide;
 };
 
 }  // namespace nephroid

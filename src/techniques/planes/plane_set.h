@@ -4,8 +4,8 @@
 // Planes stand across the mean direction of the light, `axisW`, at equal distances. Each holds a texture of
 // illuminance, and all share a virtual camera that looks along axisW. A texture has two windows: an inner one
 // about where most of the flux arrives, and an outer one, of a quarter of its texels, about where any does.
-#ifndef NEPHROID_TECHNIQUES_ILLUMINATION_TEXTURES_PLANE_SET_H
-#define NEPHROID_TECHNIQUES_ILLUMINATION_TEXTURES_PLANE_SET_H
+#ifndef NEPHROID_TECHNIQUES_PLANES_PLANE_SET_H
+#define NEPHROID_TECHNIQUES_PLANES_PLANE_SET_H
 
 #include "beams/footprint.h"
 
@@ -53,9 +53,27 @@ SHARED_FUNCTION vec2 windowTexel(PlaneSet set, uint window, vec3 point) {
   return texelOfWindow(set.windows[window], vec2(dot(point, set.axisU), dot(point, set.axisV)));
 }
 
-// First layer of a texture, one a channel: planes of the inner window, then planes of the outer one.
-SHARED_FUNCTION uint textureLayer(PlaneSet set, uint plane, uint window, uint channels) {
-  return (window * set.planes + plane) * channels;
+// A texture has a coarse part beside it, for light that is too dim and too wide to be worth its texels: of
+// every window the texels that many times as wide.
+SHARED_CONSTANT uint kCoarseness = 8u;
+
+// Images hold, for each channel, a layer for each window of each plane, inner windows first, and then the
+// coarse parts: side by side in tiles, of which kCoarseness stand along each side of a layer.
+SHARED_FUNCTION uint textureIndex(PlaneSet set, uint plane, uint window) {
+  return window * set.planes + plane;
+}
+
+SHARED_FUNCTION uint coarseLayer(PlaneSet set, uint index) {
+  return kWindows * set.planes + index / (kCoarseness * kCoarseness);
+}
+
+// In tiles from the layer's first.
+SHARED_FUNCTION vec2 coarseTile(uint index) {
+  return vec2(float(index % kCoarseness), float(index / kCoarseness % kCoarseness));
+}
+
+SHARED_FUNCTION uint layersOfChannel(PlaneSet set) {
+  return coarseLayer(set, kWindows * set.planes - 1u) + 1u;
 }
 
 SHARED_END

@@ -1,10 +1,11 @@
 // What the shaders of this folder are given.
-#ifndef NEPHROID_TECHNIQUES_ILLUMINATION_TEXTURES_SHADER_DATA_H
-#define NEPHROID_TECHNIQUES_ILLUMINATION_TEXTURES_SHADER_DATA_H
+#ifndef NEPHROID_TECHNIQUES_PLANES_SHADER_DATA_H
+#define NEPHROID_TECHNIQUES_PLANES_SHADER_DATA_H
 
 #include "techniques/scene_data.h"
 
-#include "techniques/illumination_textures/plane_set.h"
+#include "techniques/planes/plane_set.h"
+#include "transport/outgoing_ray.h"
 
 SHARED_BEGIN
 
@@ -14,6 +15,10 @@ SHARED_CONSTANT float kUnitsOfAllFlux = 536870912.0f;
 // Beams farther than this from the mean direction (as a cosine, 75.5 degrees) run along the planes rather
 // than through them.
 SHARED_CONSTANT float kLeastApproach = 0.25f;
+// A footprint of more texels than this along a side goes to the coarse part where its illuminance is less
+// than this part of the mean over the inner window.
+SHARED_CONSTANT float kWideFootprint = 24.0f;
+SHARED_CONSTANT float kDimFootprint = 0.01f;
 
 SHARED_END
 
@@ -30,6 +35,7 @@ struct DepositConstants {
   PlaneSet set;
   BUFFER_ADDRESS(Beams) beams;
   uint beamCount;
+  float textureSize;
 };
 
 struct ViewConstants {

@@ -2,7 +2,7 @@
 // around each point (Iwasaki 2005b, 4.3), or from the nearer one where planes follow the receivers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "techniques/illumination_textures/shader_data.h"
+#include "techniques/planes/shader_data.h"
 
 layout(constant_id = 0) const uint kChannels = 3;
 layout(constant_id = 1) const uint kFollowsReceivers = 1;
@@ -18,11 +18,29 @@ struct Units {
   vec4 channel[3];
 };
 
-Units unitsAt(uint plane, uint window, vec2 at) {
-  const uint layer = textureLayer(constants.set, plane, window, kChannels);
+// `corner` is the first of the four.
+Units unitsAround(uint layer, vec2 corner) {
+  const vec2 at = (corner + 1) / constants.textureSize;
   Units units;
-  for (uint c = 0; c < kChannels; ++c) units.channel[c] = vec4(textureGather(textures, vec3(at, layer + c)));
+  for (uint c = 0; c < kChannels; ++c)
+    units.channel[c] = vec4(textureGather(textures, vec3(at, layer + c * layersOfChannel(constants.set))));
   return units;
+}
+
+vec4 bilinearWeights(vec2 part) {
+  return vec4(1 - part.x, part.x, part.x, 1 - part.x) * vec4(part.y, part.y, 1 - part.y, 1 - part.y);
+}
+
+// Of the coarse part, on as much as a texel of the window, at a place in the window's texels.
+vec3 coarseUnitsAt(uint texture, float size, vec2 place) {
+  const vec2 last = vec2(floor(size / kCoarseness) - 1);
+  const vec2 within = clamp((place + 0.5) / kCoarseness - 0.5, vec2(0), max(last - 1e-3, 0));
+  const vec2 origin = coarseTile(texture) * floor(constants.textureSize / kCoarseness);
+  const Units units = unitsAround(coarseLayer(constants.set, texture), origin + floor(within));
+  const vec4 weights = bilinearWeights(fract(within)) / (kCoarseness * kCoarseness);
+  vec3 sum;
+  for (uint c = 0; c < 3; ++c) sum[c] = dot(weights, units.channel[min(c, kChannels - 1)]);
+  return sum;
 }
 
 void main() {
@@ -48,16 +66,16 @@ void main() {
   const uint nearer = min(uint(between), set.planes - 1);
   const uint farther = min(nearer + 1, set.planes - 1);
 
+  const uint nearerTexture = textureIndex(set, nearer, window), fartherTexture = textureIndex(set, farther, window);
   const vec2 corner = floor(place);
-  const vec2 at = (corner + 1) / constants.textureSize;
-  Units units = unitsAt(nearer, window, at);
-  vec4 most = vec4(0);
-  const Units behind = kFollowsReceivers == 0 ? unitsAt(farther, window, at) : units;
-  for (uint c = 0; c < kChannels; ++c) {
-    if (kFollowsReceivers == 0) units.channel[c] = mix(units.channel[c], behind.channel[c], vec4(between - float(nearer)));
-    most = max(most, units.channel[c]);
+  Units units = unitsAround(nearerTexture, corner);
+  vec3 coarse = coarseUnitsAt(nearerTexture, last + 1, place);
+  if (kFollowsReceivers == 0) {
+    const float part = between - float(nearer);
+    const Units beyond = unitsAround(fartherTexture, corner);
+    for (uint c = 0; c < kChannels; ++c) units.channel[c] = mix(units.channel[c], beyond.channel[c], vec4(part));
+    coarse = mix(coarse, coarseUnitsAt(fartherTexture, last + 1, place), part);
   }
-  if (most == vec4(0)) return;
 
   // The side away from the light, at a place where the virtual camera sees the other.
   const vec3 normal = imageLoad(receiverNormal, pixel).xyz;
@@ -68,13 +86,11 @@ void main() {
   const float depthRange = set.farthestDepth - set.nearestDepth;
   const float tolerance = 2.0 * slope / set.windows[window].texelsPerMetre + 1e-4 * depthRange;
   const float nearestSeen = (depth - tolerance - set.nearestDepth) / depthRange;
-  const vec2 part = place - corner;
   // 1 where the virtual camera sees nothing.
-  const vec4 seen = textureGather(seenDepths, vec3(at, window));
-  const vec4 weights = vec4(1 - part.x, part.x, part.x, 1 - part.x) * vec4(part.y, part.y, 1 - part.y, 1 - part.y) *
-                       vec4(greaterThanEqual(seen, vec4(min(nearestSeen, 1))));
-  vec3 sum;
-  for (uint c = 0; c < 3; ++c) sum[c] = dot(weights, units.channel[min(c, kChannels - 1)]);
+  const vec4 seen = textureGather(seenDepths, vec3((corner + 1) / constants.textureSize, window));
+  const vec4 weights = bilinearWeights(place - corner) * vec4(greaterThanEqual(seen, vec4(min(nearestSeen, 1))));
+  vec3 sum = coarse * dot(weights, vec4(1));
+  for (uint c = 0; c < 3; ++c) sum[c] += dot(weights, units.channel[min(c, kChannels - 1)]);
   const float texels = set.windows[window].texelsPerMetre;
   // What follows the receivers was left by flux; a texel's square metres on the surface are those across the axis over the cosine.
   if (kFollowsReceivers != 0) sum *= cosine;

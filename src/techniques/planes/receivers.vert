@@ -1,7 +1,7 @@
 // The receivers as the light's virtual camera sees them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "techniques/illumination_textures/shader_data.h"
+#include "techniques/planes/shader_data.h"
 
 layout(push_constant, scalar) uniform Constants { ViewConstants constants; };
 layout(location = 0) out vec3 normal;  // in the camera's frame, as receiver_normal.glsl.h packs it

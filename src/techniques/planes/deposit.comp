@@ -1,0 +1,399 @@
+// Leaves every beam's flux on the virtual planes, so that nothing is lost or made where a beam is narrower than a texel.
+//
+// Flat planes are those of Iwasaki 2005b (eq. 3, with the flux in place of intensity times area ratio). A plane that follows the
+// receivers is bent, within half the distance to its neighbours, onto what the virtual camera sees: light is then left where it
+// arrives, and nothing is smeared between planes.
+//
+// Each thread of a subgroup finds where one beam falls; then all of them, as a block a texel a thread, move over one beam's footprint
+// after the other. Loops ask at their end: a software device passes once through all that stands in one, whether it has threads
+// for it or not.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#include "techniques/planes/shader_data.h"
+
+#include "techniques/planes/receiver_normal.glsl.h"
+
+layout(constant_id = 0) const uint kChannels = 3;
+layout(constant_id = 1) const uint kFollowsReceivers = 1;
+// Light goes along axisW, give or take: where nobody knows what it meets first, that is what the virtual camera sees.
+layout(constant_id = 2) const uint kGoesAlongAxis = 1;
+const int kStepsToReceiver = kGoesAlongAxis != 0 ? 4 : 6;
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Constants { DepositConstants constants; };
+layout(set = 0, binding = 0) uniform texture2DArray seenDepths;    // by the virtual camera, a layer a window
+layout(set = 0, binding = 1) uniform utexture2DArray seenNormals;  // as receiver_normal.glsl.h packs them
+layout(set = 0, binding = 2, r32ui) uniform uimage2DArray textures;
+
+// A corner ray in the virtual camera's frame: metres along axisU, axisV and axisW.
+struct Ray {
+  vec3 start;
+  vec3 direction;  // unit
+};
+
+Ray rayOf(vec3 position, vec3 direction) {
+  const mat3 axes = mat3(constants.set.axisU, constants.set.axisV, constants.set.axisW);
+  return Ray(position * axes, direction * axes);
+}
+
+// m along the ray; far off where it runs along the planes.
+float distanceToDepth(Ray ray, float depth) {
+  const float approach = ray.direction.z;
+  return (depth - ray.start.z) / (approach < 0 ? min(approach, -1e-4) : max(approach, 1e-4));
+}
+
+// Where a ray meets what the virtual camera sees.
+struct Arrival {
+  float distance;  // m along the ray
+  bool isSeen;     // there, and not only near what would be there
+  vec4 plane;      // tangent there: a point of it times the first three is the fourth
+};
+
+// The normal is as receiver_normal.glsl.h has it.
+vec4 tangentPlane(vec3 point, vec3 normal) {
+  const vec3 outward = vec3(normal.xy, -normal.z);
+  return vec4(outward, dot(outward, point));
+}
+
+// Takes the tangent plane of what is seen next to where the ray is by now, again and again. One step is exact on a flat receiver.
+Arrival arrivalOf(Ray ray, float reach) {
+  const PlaneSet set = constants.set;
+  const float range = set.farthestDepth - set.nearestDepth;
+  const float toNearest = distanceToDepth(ray, set.nearestDepth), toFarthest = distanceToDepth(ray, set.farthestDepth);
+  const float nearest = max(min(toNearest, toFarthest), 0), farthest = max(max(toNearest, toFarthest), 0);
+  const vec2 center = set.windows[0].corner + 0.5 * set.windows[0].size / set.windows[0].texelsPerMetre;
+  const float middle = set.firstDepth + 0.5 * float(set.planes - 1) * set.depthStep;
+  float distance = abs(ray.direction.z) >= kLeastApproach ? distanceToDepth(ray, middle)
+                                                          : dot(vec3(center, middle) - ray.start, ray.direction);
+  const bool isReachKnown = reach < kUnboundedReach;
+  if (isReachKnown) distance = reach;
+  distance = clamp(distance, nearest, farthest);
+  float toSeen = distance;  // to the last tangent plane of what was seen
+  vec4 plane = vec4(0, 0, -1, -middle);
+  float change, metresPerTexel;
+  int step = 0;
+  bool isSeen, isLit, isThere;
+  do {
+    const vec3 point = ray.start + distance * ray.direction;
+    uint window = 0;
+    vec2 place = texelOfWindow(set.windows[0], point.xy);
+    if (any(lessThan(place, vec2(0))) || any(greaterThanEqual(place, vec2(set.windows[0].size)))) {
+      window = 1;
+      place = texelOfWindow(set.windows[1], point.xy);
+    }
+    metresPerTexel = 1 / set.windows[window].texelsPerMetre;
+    const vec2 texel = clamp(floor(place), vec2(0), vec2(set.windows[window].size - 1));
+    const float seen = texelFetch(seenDepths, ivec3(texel, window), 0).r;
+    const vec3 normal = unpackedNormal(texelFetch(seenNormals, ivec3(texel, window), 0).r);
+    const float seenDepth = set.nearestDepth + seen * range;
+    const vec4 next = tangentPlane(vec3(point.xy - (place - texel - 0.5) * metresPerTexel, seenDepth), normal);
+    // How far the ray stands from it, and how fast it comes nearer.
+    const float ahead = dot(next.xyz, point) - next.w;
+    const float approach = -dot(next.xyz, ray.direction);
+    isLit = approach > (kGoesAlongAxis != 0 ? 0.1 * ray.direction.z * normal.z : 0.02 * length(normal));
+    const float toPlane = isLit ? distance + ahead / approach : distanceToDepth(ray, seenDepth);
+    isSeen = seen < 1;
+    if (isSeen) plane = next;
+    if (isSeen) toSeen = clamp(toPlane, nearest, farthest);
+    change = abs(toSeen - distance);
+    isThere = isSeen && change < 1e-4 * metresPerTexel;
+    // Past the receivers' edge, or the window's: they are nearer to where the ray comes from.
+    distance = isSeen ? toSeen : 0.5 * (distance + nearest);
+  } while (!isThere && ++step < kStepsToReceiver);
+  // A ray that passes a receiver by goes as far as the others of its beam.
+  if (!isSeen) distance = toSeen;
+  const float tolerance = 2 * metresPerTexel + 1e-3 * range;
+  const bool isMet = isSeen && isLit && change <= tolerance;
+  if (isReachKnown) return Arrival(distance, isMet && abs(distance - reach) <= 0.01 * reach + tolerance, plane);
+  return Arrival(distance, isMet || kGoesAlongAxis != 0, plane);
+}
+
+// Where a beam's corners are, m along the axes, on a plane or next to it.
+struct Crossing {
+  vec3 a, b, c;
+  float part;  // of the beam's flux that comes so far
+};
+
+Crossing crossingAt(Ray rays[3], vec3 distances) {
+  const vec3 meets = vec3(greaterThanEqual(distances, vec3(-1e-6)));
+  distances = max(distances, vec3(0));
+  Crossing crossing;
+  crossing.a = rays[0].start + distances.x * rays[0].direction;
+  crossing.b = rays[1].start + distances.y * rays[1].direction;
+  crossing.c = rays[2].start + distances.z * rays[2].direction;
+  crossing.part = dot(meets, vec3(1.0 / 3.0));
+  return crossing;
+}
+
+// How far a plane reaches that follows the receivers, m to either side: half the way to its neighbours, and a little more because
+// neighbouring texels may be asked for that lie past the border.
+float reachOf(uint window) { return 0.5 * constants.set.depthStep + 3 / constants.set.windows[window].texelsPerMetre; }
+
+// On a plane that follows the receivers, corners that arrive nearer to another one, or nowhere, go to the surface on which the others
+// arrive: one beam may meet several receivers.
+vec3 distancesNear(float low, float high, Ray rays[3], Arrival arrivals[3]) {
+  bvec3 isWithin;
+  vec4 surface = vec4(0);
+  for (int i = 2; i >= 0; --i) {
+    const float depth = rays[i].start.z + arrivals[i].distance * rays[i].direction.z;
+    isWithin[i] = depth >= low && depth <= high && arrivals[i].isSeen;
+    if (isWithin[i]) surface = arrivals[i].plane;
+  }
+  vec3 distances;
+  for (int i = 0; i < 3; ++i) {
+    const float depth = rays[i].start.z + arrivals[i].distance * rays[i].direction.z;
+    const float approach = -dot(surface.xyz, rays[i].direction);
+    const float toSurface = (dot(surface.xyz, rays[i].start) - surface.w) / approach;
+    const float toBand = distanceToDepth(rays[i], clamp(depth, low, high));
+    distances[i] = isWithin[i] ? arrivals[i].distance : approach > 1e-2 && toSurface >= 0 ? toSurface : max(toBand, 0);
+  }
+  return distances;
+}
+
+Crossing crossingOf(Ray rays[3], Arrival arrivals[3], uint plane, uint window) {
+  const PlaneSet set = constants.set;
+  const float depth = set.firstDepth + float(plane) * set.depthStep;
+  if (kFollowsReceivers == 0)
+    return crossingAt(rays, vec3(distanceToDepth(rays[0], depth), distanceToDepth(rays[1], depth), distanceToDepth(rays[2], depth)));
+  // The first and the last plane have all that lies before and beyond.
+  const float low = plane == 0 ? -1e30 : depth - reachOf(window);
+  const float high = plane == set.planes - 1 ? 1e30 : depth + reachOf(window);
+  return crossingAt(rays, distancesNear(low, high, rays, arrivals));
+}
+
+float least(vec3 v) { return min(min(v.x, v.y), v.z); }
+float most(vec3 v) { return max(max(v.x, v.y), v.z); }
+
+// The first plane that a beam leaves light on, and how many. `depths` are those of its arrival.
+uvec2 planesOf(vec3 depths, uint window) {
+  const PlaneSet set = constants.set;
+  const float last = float(set.planes - 1);
+  if (kFollowsReceivers == 0 || set.depthStep == 0) return uvec2(0, set.planes);
+  const float first = clamp(ceil((least(depths) - reachOf(window) - set.firstDepth) / set.depthStep), 0, last);
+  return uvec2(first, clamp(floor((most(depths) + reachOf(window) - set.firstDepth) / set.depthStep), 0, last) - first + 1);
+}
+
+// Whether all that the outer window is asked for, on `planes`, lies off this beam: the inner one answers there, down to one and a
+// half of the outer one's texels from its borders. Corner rays are straight: what is inside on both of the outermost planes is so
+// between them.
+bool isInsideInnerWindow(Ray rays[3], Arrival arrivals[3], uvec2 planes) {
+  const Window window = constants.set.windows[0];
+  const float border = 1 + 2 * window.texelsPerMetre / constants.set.windows[1].texelsPerMetre;
+  bool isInside = true;
+  for (uint end = 0; end < 2; ++end) {
+    const Crossing crossing = crossingOf(rays, arrivals, end == 0 ? planes.x : planes.x + planes.y - 1, 1);
+    const vec2 lower = min(min(crossing.a.xy, crossing.b.xy), crossing.c.xy);
+    const vec2 upper = max(max(crossing.a.xy, crossing.b.xy), crossing.c.xy);
+    isInside = isInside && all(greaterThan(texelOfWindow(window, lower), vec2(border))) &&
+               all(lessThan(texelOfWindow(window, upper), vec2(window.size - border)));
+  }
+  return isInside;
+}
+
+// What a beam leaves on a plane. Corners are as centerFootprint leaves them, in texels from `base`; of a line a and c are its ends.
+struct Footprint {
+  vec2 a, b, c;
+  vec2 base;
+  vec2 lower, upper;  // the first and the last texel of the window that it may touch
+  vec3 slopes;        // of a line x is where along it its peak lies
+  float perArea;      // of the flux in a texel squared; 0 for a line
+};
+
+// `size` is that of the texture, corners are in its texels.
+Footprint footprintOf(vec2 a, vec2 b, vec2 c, float size) {
+  Footprint print;
+  print.lower = floor(min(min(a, b), c));
+  print.upper = floor(max(max(a, b), c));
+  print.a = a;
+  print.b = b;
+  print.c = c;
+  centerFootprint(print.a, print.b, print.c, print.base);
+  print.slopes = sideSlopes(print.a, print.b, print.c);
+  print.perArea = 2 / max(abs(doubledArea(print.a, print.b, print.c)), 1e-20);
+  if (print.lower == print.upper || isSliver(print.a, print.b, print.c)) {
+    print.slopes.x = sortSliver(a, b, c);
+    print.base = print.lower;
+    print.a = a - print.base;
+    print.c = c - print.base;
+    print.perArea = 0;
+  }
+  print.lower = max(print.lower, vec2(0));
+  print.upper = min(print.upper, vec2(size - 1));
+  return print;
+}
+
+// From the thread that found it to all.
+Footprint shuffled(Footprint print, uint thread) {
+  return Footprint(subgroupShuffle(print.a, thread), subgroupShuffle(print.b, thread), subgroupShuffle(print.c, thread),
+                   subgroupShuffle(print.base, thread), subgroupShuffle(print.lower, thread), subgroupShuffle(print.upper, thread),
+                   subgroupShuffle(print.slopes, thread), subgroupShuffle(print.perArea, thread));
+}
+
+// The texture of a plane, and the beam whose light it takes.
+struct Target {
+  uint layer;      // of the first channel
+  vec2 origin;     // of the texture in the layer, texels
+  uint window;
+  float fineness;  // of its texels, against those of the window
+  vec3 units;      // of flux, by channel
+  vec3 along;      // the beam, m along the axes for each metre that it comes nearer to or farther from the plane
+};
+
+Target shuffled(Target target, uint thread) {
+  return Target(subgroupShuffle(target.layer, thread), subgroupShuffle(target.origin, thread), subgroupShuffle(target.window, thread),
+                subgroupShuffle(target.fineness, thread), subgroupShuffle(target.units, thread),
+                subgroupShuffle(target.along, thread));
+}
+
+// Whether a footprint, its corners in the window's texels, is wide and dim.
+bool isForCoarsePart(vec2 a, vec2 b, vec2 c, float units, uint window) {
+  const Window inner = constants.set.windows[0];
+  const float texels = inner.size * constants.set.windows[window].texelsPerMetre / inner.texelsPerMetre;
+  const vec2 extent = max(max(a, b), c) - min(min(a, b), c);
+  return max(extent.x, extent.y) > kWideFootprint &&
+         units * texels * texels < 0.5 * kDimFootprint * kUnitsOfAllFlux * abs(doubledArea(a, b, c));
+}
+
+// Puts a part of the beam's flux on a texel of a flat plane, as the illuminance of what the virtual camera sees there; and as it is
+// on a plane that follows the receivers.
+void add(vec2 texel, float part, Target target) {
+  vec3 units = part * target.units;
+  if (kFollowsReceivers == 0) {
+    const vec3 normal = unpackedNormal(texelFetch(seenNormals, ivec3((texel + 0.5) / target.fineness, target.window), 0).r);
+    // The beam's angle with the surface over that with the plane, as cosines.
+    units *= max(target.along.z * normal.z - dot(target.along.xy, normal.xy), 0) * inversesqrt(dot(normal, normal));
+  }
+  units += 0.5;
+  for (uint c = 0; c < kChannels; ++c)
+    if (units[c] >= 1.0)
+      imageAtomicAdd(textures, ivec3(texel + target.origin, target.layer + c * layersOfChannel(constants.set)), uint(units[c]));
+}
+
+// The threads at work in a subgroup stand in a block.
+struct Block {
+  uvec2 size;
+  uvec2 place;  // of this thread
+};
+
+Block blockOfSubgroup() {
+  const uvec4 threads = subgroupBallot(true);
+  const uint count = subgroupBallotBitCount(threads);
+  const uint width = 1u << ((uint(findMSB(count)) + 1) / 2);
+  const uint thread = subgroupBallotExclusiveBitCount(threads);
+  return Block(uvec2(width, count / width), uvec2(thread % width, thread / width));
+}
+
+// Shares out a line's flux. Texels are clipped against it side by side: nothing is left out between them.
+void addLine(Footprint print, Target target, Block block) {
+  const vec2 along = print.c - print.a;
+  float y = print.lower.y + float(block.place.y);
+  do {
+    const vec2 row = lineInSlab(print.a.y, along.y, y - print.base.y);
+    float x = print.lower.x + float(block.place.x);
+    do {
+      const vec2 column = lineInSlab(print.a.x, along.x, x - print.base.x);
+      const vec2 ends = clamp(vec2(max(row.x, column.x), min(row.y, column.y)), 0, 1);
+      const float part = max(tentBefore(ends.y, print.slopes.x) - tentBefore(ends.x, print.slopes.x), 0);
+      if (x <= print.upper.x && y <= print.upper.y) add(vec2(x, y), part, target);
+      x += float(block.size.x);
+    } while (x <= print.upper.x);
+    y += float(block.size.y);
+  } while (y <= print.upper.y);
+}
+
+void addTriangle(Footprint print, Target target, Block block) {
+  const vec3 inverseSlopes = inverseSlopesOf(print.slopes);
+  float y = print.lower.y + float(block.place.y);
+  do {
+    const TriangleRow row = triangleInRow(print.a, print.b, print.c, print.slopes, y - print.base.y);
+    const float last = y <= print.upper.y ? min(floor(row.last) + print.base.x, print.upper.x) : -1;
+    float x = max(floor(row.first) + print.base.x, print.lower.x) + float(block.place.x);
+    do {
+      const float part = triangleCoverage(row, inverseSlopes, x - print.base.x) * print.perArea;
+      if (x <= last) add(vec2(x, y), part, target);
+      x += float(block.size.x);
+    } while (x <= last);
+    y += float(block.size.y);
+  } while (y <= print.upper.y);
+}
+
+void main() {
+  const PlaneSet set = constants.set;
+  const Block block = blockOfSubgroup();
+  const uint index = gl_GlobalInvocationID.x;
+  const Beam beam = constants.beams.beam[min(index, constants.beamCount - 1)];
+  Ray rays[3];
+  for (int i = 0; i < 3; ++i) rays[i] = rayOf(beam.position[i], beam.direction[i]);
+  const vec3 direction = normalize(rays[0].direction + rays[1].direction + rays[2].direction);
+  bool isThere = index < constants.beamCount;
+  if (kGoesAlongAxis != 0) isThere = isThere && direction.z >= kLeastApproach;
+  if (kFollowsReceivers == 0) isThere = isThere && abs(direction.z) >= kLeastApproach;
+
+  Arrival arrivals[3];
+  vec3 depths = vec3(0);  // m along axisW
+  if (kFollowsReceivers != 0) {
+    float seen = 0, distance = 0;
+    for (int i = 0; i < 3; ++i) {
+      arrivals[i] = arrivalOf(rays[i], beam.reach[i]);
+      if (arrivals[i].isSeen) ++seen, distance += arrivals[i].distance;
+    }
+    for (int i = 0; i < 3; ++i) {
+      // A corner that is not seen goes as far as those that are.
+      if (!arrivals[i].isSeen) arrivals[i].distance = distance / max(seen, 1);
+      depths[i] = rays[i].start.z + arrivals[i].distance * rays[i].direction.z;
+    }
+    isThere = isThere && seen > 0;
+  }
+  Target target;
+  target.along = direction / abs(direction.z);
+  target.units = beam.flux / set.luxMetresSquaredPerUnit;
+  // One channel stands for all that have light; the first may have none.
+  if (kChannels == 1) target.units.x = most(target.units);
+
+  // Planes of the inner window, then of the outer one.
+  const uvec2 inner = planesOf(depths, 0), outer = planesOf(depths, 1);
+  const uint count = !isThere ? 0 : isInsideInnerWindow(rays, arrivals, outer) ? inner.y : inner.y + outer.y;
+  uint i = 0;
+  do {
+    target.window = i < inner.y ? 0 : 1;
+    const uint plane = i < inner.y ? inner.x + i : outer.x + i - inner.y;
+    const Crossing crossing = crossingOf(rays, arrivals, plane, target.window);
+    const Window window = set.windows[target.window];
+    vec2 a = texelOfWindow(window, crossing.a.xy), b = texelOfWindow(window, crossing.b.xy), c = texelOfWindow(window, crossing.c.xy);
+    const uint texture = textureIndex(set, plane, target.window);
+    const bool isCoarse = isForCoarsePart(a, b, c, most(target.units), target.window);
+    target.layer = isCoarse ? coarseLayer(set, texture) : texture;
+    target.origin = isCoarse ? coarseTile(texture) * floor(constants.textureSize / kCoarseness) : vec2(0);
+    target.fineness = isCoarse ? 1.0 / kCoarseness : 1;
+    a *= target.fineness;
+    b *= target.fineness;
+    c *= target.fineness;
+    const Footprint print = footprintOf(a, b, c, floor(window.size * target.fineness));
+    Target own = target;
+    own.units *= crossing.part;
+    const bool isDrawn = i < count && crossing.part > 0 && all(lessThanEqual(print.lower, print.upper));
+    bool waits = isDrawn && print.perArea > 0;
+    uvec4 waiting = subgroupBallot(waits);
+    if (waiting != uvec4(0)) {
+      do {
+        const uint next = subgroupBallotFindLSB(waiting);
+        addTriangle(shuffled(print, next), shuffled(own, next), block);
+        waits = waits && gl_SubgroupInvocationID != next;
+        waiting = subgroupBallot(waits);
+      } while (waiting != uvec4(0));
+    }
+    waits = isDrawn && print.perArea == 0;
+    waiting = subgroupBallot(waits);
+    if (waiting != uvec4(0)) {
+      do {
+        const uint next = subgroupBallotFindLSB(waiting);
+        addLine(shuffled(print, next), shuffled(own, next), block);
+        waits = waits && gl_SubgroupInvocationID != next;
+        waiting = subgroupBallot(waits);
+      } while (waiting != uvec4(0));
+    }
+    ++i;
+  } while (subgroupBallot(i < count) != uvec4(0));
+}

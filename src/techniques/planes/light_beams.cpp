@@ -1,0 +1,86 @@
+#include "techniques/planes/light_beams.h"
+
+#include <algorithm>
+
+#include "scene/emitters.h"
+
+namespace nephroid {
+namespace {
+
+// Cosine between the directions from which points of a line light that share planes shine.
+constexpr float kNearlyOneDirection = 0.8f;
+
+vec3 centerOf(const Scene& scene, const Object& object) {
+  const std::vector<vec3>& positions = scene.meshOf(object).positions;
+  vec3 low = positions[0], high = positions[0];
+  for (const vec3& p : positions) {
+    low = min(low, p);
+    high = max(high, p);
+  }
+  return object.placement.point(0.5f * (low + high));
+}
+
+// Past the last emitter that shines on `center` together with the emitter `first`.
+std::size_t endOfLamp(vec3 center, std::span<const Emitter> emitters, std::size_t first) {
+  const vec3 direction = emitterDirection(emitters[first], center);
+  std::size_t last = first + 1;
+  while (last < emitters.size() && emitters[last].light == emitters[first].light &&
+         dot(emitterDirection(emitters[last], center), direction) >= kNearlyOneDirection)
+    ++last;
+  return last;
+}
+
+void addPortions(std::vector<BandQuery> queries, std::vector<std::vector<BandQuery>>& portions) {
+  std::ranges::stable_sort(queries, {}, [](const BandQuery& band) { return band.query.reflections; });
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (i == 0 || queries[i].query.reflections != queries[i - 1].query.reflections) portions.emplace_back();
+    portions.back().push_back(queries[i]);
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<BandQuery>> lightThroughCasters(const SceneTransport& transport, Paths paths) {
+  const Scene& scene = transport.scene();
+  const std::vector<Emitter> emitters = emittersOf(scene);
+  std::vector<MediumStack> media;
+  for (const Emitter& emitter : emitters) media.push_back(transport.mediaAround(emitter));
+  std::vector<std::vector<BandQuery>> portions;
+  for (uint32_t object = 0; object < scene.objects.size(); ++object) {
+    if (!scene.isCaster(scene.objects[object])) continue;
+    const vec3 center = centerOf(scene, scene.objects[object]);
+    for (std::size_t first = 0, last; first < emitters.size(); first = last) {
+      last = endOfLamp(center, emitters, first);
+      std::vector<BandQuery> queries;
+      for (std::size_t i = first; i < last; ++i)
+        std::ranges::move(queriesFor(scene, object, emitters[i], media[i], paths),
+                          std::back_inserter(queries));
+      addPortions(std::move(queries), portions);
+    }
+  }
+  return portions;
+}
+
+std::vector<Beam> beamsOf(const Scene& scene, const TransportSource& source,
+                          std::span<const BandQuery> queries, const BeamSettings& settings) {
+  std::vector<Beam> all;
+  for (const BandQuery& band : queries) {
+    BeamSet set = buildBeams(scene, source, band.query, band.bandColor, settings);
+    if (all.empty()) {
+      all = std::move(set.beams);
+    } else {
+      all.insert(all.end(), set.beams.begin(), set.beams.end());
+    }
+  }
+  return all;
+}
+
+bool areOfOneColor(std::span<const Beam> beams) {
+  const vec3 first = beams.front().flux;
+  return std::ranges::all_of(beams, [&](const Beam& beam) {
+    const vec3 difference = abs(cross(beam.flux, first));
+    return std::max({difference.x, difference.y, difference.z}) <= 1e-5f * dot(beam.flux, first);
+  });
+}
+
+}  // namespace nephroid

@@ -1,0 +1,51 @@
+// Where virtual planes stand.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+#include "techniques/planes/plane_set.h"
+
+namespace nephroid {
+
+// The box of an opaque object's mesh, in the object's own space.
+struct ReceiverBox {
+  Placement placement;
+  vec3 low{0};
+  vec3 high{0};
+};
+
+std::vector<ReceiverBox> receiverBoxes(const Scene& scene);
+
+// m along the axis, of what is nearest in the boxes.
+float nearestAlong(vec3 axis, std::span<const ReceiverBox> boxes);
+
+// Where a box may stop light.
+struct Arrival {
+  vec3 point;  // m
+  float flux;  // lm, of all channels
+};
+
+// Of as many beams as tell where all of them arrive. Without an axis all count; with one, those whose cosine
+// with it is less than `leastApproach` are left out.
+std::vector<Arrival> findArrivals(std::span<const Beam> beams, std::span<const ReceiverBox> boxes,
+                                  vec3 axis = vec3(0), float leastApproach = 0);
+
+// How planes stand, and how far along their axis the virtual camera begins to see.
+struct PlaneOrder {
+  vec3 axis{0};  // unit
+  float nearestDepth = 0;
+  uint32_t planes = 1;
+  uint32_t textureSize = 512;
+};
+
+// From the nearest to the farthest arrival, with windows about all of them. One plane where all arrive at one
+// depth; of no planes without arrivals.
+PlaneSet planPlanes(const PlaneOrder& order, std::span<const Beam> beams, std::span<const Arrival> arrivals);
+
+// Planes across the mean direction of the light (Iwasaki 2005b, 4.2).
+PlaneSet planAlongLight(std::span<const Beam> beams, std::span<const ReceiverBox> boxes, uint32_t planes,
+                        uint32_t textureSize);
+
+}  // namespace nephroid

@@ -1,0 +1,211 @@
+#include "techniques/planes/plane_technique.h"
+
+#include <algorithm>
+
+#include "gpu/command_list.h"
+#include "shaders/deposit_comp.h"
+#include "shaders/receivers_frag.h"
+#include "shaders/receivers_vert.h"
+#include "shaders/shade_frag.h"
+#include "shaders/whole_picture_vert.h"
+#include "techniques/planes/light_beams.h"
+
+namespace nephroid {
+namespace {
+
+// As many as the fewest workgroups of one dispatch that Vulkan promises can hold, at 64 threads each.
+constexpr std::size_t kMostBeamsADispatch = 65535 * 64;
+
+void ensure(gpu::Device& device, gpu::Buffer& buffer, const char* name, VkDeviceSize bytes,
+            gpu::MemoryKind kind) {
+  // Half as much again, so that a caustic that grows from frame to frame does not ask for memory in each.
+  if (buffer.size() < bytes) buffer = gpu::createBuffer(device, name, bytes + bytes / 2, kind);
+}
+
+// Of a window, which begins in a corner of images of `imageSize` texels along a side.
+ViewConstants viewOf(const PlaneSet& set, uint32_t window, uint32_t imageSize) {
+  const auto row = [](vec3 axis, float from, float to) {
+    return vec4(axis / (to - from), -from / (to - from));
+  };
+  const auto inImage = [&](vec3 axis, float from) {
+    const float to = from + float(imageSize) / set.windows[window].texelsPerMetre;
+    return 2.0f * row(axis, from, to) - vec4(0, 0, 0, 1);
+  };
+  ViewConstants constants{};
+  constants.toClip[0] = inImage(set.axisU, set.windows[window].corner.x);
+  constants.toClip[1] = inImage(set.axisV, set.windows[window].corner.y);
+  constants.toClip[2] = row(set.axisW, set.nearestDepth, set.farthestDepth);
+  constants.axisU = set.axisU;
+  constants.axisV = set.axisV;
+  constants.axisW = set.axisW;
+  return constants;
+}
+
+uint32_t followsReceivers(const TechniqueSettings& settings) {
+  return settings.interpolation == Interpolation::surface;
+}
+
+gpu::Program depositProgram(gpu::Device& device, const char* name, uint32_t channels,
+                            const TechniqueSettings& settings, bool goesAlongAxis) {
+  return gpu::createComputeProgram(device, name, shaders::deposit_comp,
+                                   {{0, channels}, {1, followsReceivers(settings)}, {2, goesAlongAxis}});
+}
+
+gpu::Program shadeProgram(gpu::Device& device, const char* name, uint32_t channels,
+                          const TechniqueSettings& settings) {
+  return gpu::createRasterProgram(device, name, shaders::whole_picture_vert, shaders::shade_frag,
+                                  {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
+                                  {{0, channels}, {1, followsReceivers(settings)}});
+}
+
+}  // namespace
+
+PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechniqueTraits& traitsOf)
+    : device(context.device),
+      settings(context.settings),
+      traits(traitsOf),
+      stats(context.stats),
+      transport(context.transport),
+      source(transport.source()),
+      receiversProgram(
+          gpu::createRasterProgram(device, traits.viewPass, shaders::receivers_vert, shaders::receivers_frag,
+                                   {.colors = {{VK_FORMAT_R32_UINT}}, .depthFormat = VK_FORMAT_D32_SFLOAT})),
+      depositPrograms{depositProgram(device, "deposit", 1, settings, traits.goesAlongAxis),
+                      depositProgram(device, "deposit in color", 3, settings, traits.goesAlongAxis)},
+      shadePrograms{shadeProgram(device, "caustics", 1, settings),
+                    shadeProgram(device, "caustics in color", 3, settings)},
+      texelSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {}
+
+PlaneTechnique::LitPlanes PlaneTechnique::light(std::span<const BandQuery> queries,
+                                                std::span<const ReceiverBox> boxes) const {
+  const Scene& scene = transport.scene();
+  LitPlanes result;
+  result.beams = beamsOf(scene, source, queries, {.refineDepth = 0, .targets = {}});
+  if (source.refines() && settings.refineDepth > 0) {
+    const PlaneSet along = planAlongLight(result.beams, boxes, 2, settings.textureSize);
+    if (along.planes == 0) return result;
+    BeamSettings refined;
+    refined.refineDepth = settings.refineDepth;
+    refined.refineTolerance = 0.5f;
+    refined.targets = {planeGrid(along, 0, 0), planeGrid(along, along.planes - 1, 0)};
+    result.beams = beamsOf(scene, source, queries, refined);
+  }
+  result.planes = traits.plan(scene, result.beams, boxes, settings);
+  if (result.planes.planes == 0) return result;
+  result.channels = areOfOneColor(result.beams) ? 1 : 3;
+  return result;
+}
+
+void PlaneTechnique::update(GpuScene&) {
+  const std::vector<ReceiverBox> boxes = receiverBoxes(transport.scene());
+  lit.clear();
+  std::size_t beamCount = 0;
+  for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths)) {
+    LitPlanes own = light(queries, boxes);
+    if (own.planes.planes == 0) continue;
+    beamCount += own.beams.size();
+    lit.push_back(std::move(own));
+  }
+  stats.counts = {{"beams", beamCount}, {"plane_sets", lit.size()}};
+  upload();
+}
+
+void PlaneTechnique::upload() {
+  beamBytes = 0;
+  for (const LitPlanes& own : lit) beamBytes += own.beams.size() * sizeof(Beam);
+  ensure(device, beamUpload, "beams to upload", beamBytes, gpu::MemoryKind::upload);
+  ensure(device, beams, "beams", beamBytes, gpu::MemoryKind::device);
+  VkDeviceSize offset = 0;
+  for (const LitPlanes& own : lit) {
+    beamUpload.write(own.beams, offset);
+    offset += own.beams.size() * sizeof(Beam);
+  }
+  if (images.size() < lit.size()) images.resize(lit.size());
+  for (std::size_t set = 0; set < lit.size(); ++set) ensureImages(set);
+}
+
+void PlaneTechnique::ensureImages(std::size_t set) {
+  const auto image = [&](const char* name, VkFormat format, uint32_t layers) {
+    return gpu::createImage(
+        device, name,
+        {.format = format, .width = settings.textureSize, .height = settings.textureSize, .layers = layers});
+  };
+  PlaneImages& own = images[set];
+  if (!own.depths) {
+    own.normals = image("receivers' normals", VK_FORMAT_R32_UINT, kWindows);
+    own.depths = image("receivers' depths", VK_FORMAT_D32_SFLOAT, kWindows);
+  }
+  const uint32_t layers = layersOfChannel(lit[set].planes) * lit[set].channels;
+  if (own.textures.layerCount() < layers)
+    own.textures = image("illumination textures", VK_FORMAT_R32_UINT, layers);
+}
+
+void PlaneTechnique::drawReceivers(gpu::CommandList& commands, const GpuScene& gpuScene, std::size_t set) {
+  const PlaneImages& own = images[set];
+  const PlaneSet& planes = lit[set].planes;
+  for (uint32_t window = 0; window < kWindows; ++window) {
+    ViewConstants constants = viewOf(planes, window, settings.textureSize);
+    constants.vertices = gpuScene.vertices();
+    constants.objects = gpuScene.objects();
+    commands.render({.colors = {{&own.normals, window, vec4(0)}},
+                     .depth = gpu::DepthAttachment{&own.depths, window, 1.0f},
+                     .region = gpu::Region{{0, 0}, uvec2(uint32_t(planes.windows[window].size))}},
+                    [&] {
+                      for (const SceneDraw& draw : gpuScene.draws()) {
+                        if (draw.type != MaterialType::diffuse) continue;
+                        constants.object = draw.object;
+                        commands.drawIndexed(receiversProgram, gpuScene.indices(), draw.range, 1, constants);
+                      }
+                    });
+  }
+}
+
+void PlaneTechnique::deposit(gpu::CommandList& commands, std::size_t set, VkDeviceAddress ofBeams) {
+  const PlaneImages& own = images[set];
+  const std::size_t all = lit[set].beams.size();
+  for (std::size_t first = 0; first < all; first += kMostBeamsADispatch) {
+    const auto count = uint32_t(std::min(all - first, kMostBeamsADispatch));
+    commands.dispatch(
+        depositPrograms[lit[set].channels == 3], {count, 1, 1},
+        DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), count, float(settings.textureSize)},
+        {own.depths, own.normals, own.textures});
+  }
+}
+
+void PlaneTechnique::record(gpu::CommandList& commands, GpuScene& gpuScene) {
+  if (lit.empty()) return;
+  commands.pass(traits.viewPass, [&] {
+    commands.copy(beamUpload, beams, beamBytes);
+    for (std::size_t set = 0; set < lit.size(); ++set) {
+      commands.clear(images[set].textures, vec4(0));
+      drawReceivers(commands, gpuScene, set);
+    }
+  });
+  commands.pass(traits.texturesPass, [&] {
+    VkDeviceAddress ofBeams = beams.address();
+    for (std::size_t set = 0; set < lit.size(); ++set) {
+      deposit(commands, set, ofBeams);
+      ofBeams += lit[set].beams.size() * sizeof(Beam);
+    }
+  });
+}
+
+void PlaneTechnique::shade(gpu::CommandList& commands, const ReceiverPoints& points,
+                           const gpu::Image& causticsLux) {
+  const bool isAll = points.region.size.x == 0 || points.region.size.y == 0;
+  commands.pass("caustics", [&] {
+    commands.render({.colors = {{&causticsLux, 0, std::nullopt}},
+                     .region = isAll ? std::nullopt : std::optional(points.region)},
+                    [&] {
+                      for (std::size_t set = 0; set < lit.size(); ++set)
+                        commands.draw(shadePrograms[lit[set].channels == 3], 3, 1,
+                                      ShadeConstants{lit[set].planes, float(settings.textureSize)},
+                                      {*points.position,
+                                       *points.normal,
+                                       {images[set].depths, texelSampler},
+                                       {images[set].textures, texelSampler}});
+                    });
+  });
+}
+
+}  // namespace nephroid
