@@ -59,6 +59,10 @@ constexpr Case kCases[] = {
     {"illumination-textures", "ball-point", Source::table, 0.02, 0.2},
     {"illumination-textures", "bunny-point", Source::traced, 0.03, 0.5},
     {"illumination-textures", "spot-coloured", Source::traced, 0.03, 1.0},
+    {"sliced-images", "ball-point", Source::traced, 0.01, 0.05},
+    {"sliced-images", "ball-point", Source::table, 0.02, 0.2},
+    {"sliced-images", "bunny-point", Source::traced, 0.03, 0.5},
+    {"sliced-images", "spot-coloured", Source::traced, 0.03, 1.0},
 };
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TechniqueTruthGpuTest, testing::ValuesIn(kCases));

@@ -11,7 +11,8 @@ namespace {
 constexpr uint32_t kPointsAlongTexel = 4;  // at once
 constexpr uint32_t kPasses = 4;            // times, between them
 
-// The scene and a diffuse quad on the sensor: techniques light receivers.
+// The scene and a diffuse quad on the sensor, since techniques light receivers; and a camera that looks at it
+// along the sensor's normal, for those that ask where receivers are seen from.
 Scene withReceiver(Scene scene, const Sensor& sensor) {
   Mesh quad;
   quad.name = sensor.name;
@@ -26,6 +27,8 @@ Scene withReceiver(Scene scene, const Sensor& sensor) {
   scene.meshes.push_back(std::move(quad));
   scene.materials.emplace_back();
   scene.objects.push_back(std::move(object));
+  scene.camera.target = sensor.corner + 0.5f * (sensor.u + sensor.v);
+  scene.camera.position = scene.camera.target + 100 * length(sensor.u + sensor.v) * sensor.normal();
   return scene;
 }
 

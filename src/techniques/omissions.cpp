@@ -76,20 +76,39 @@ std::span<const Omission> omissionsOfFrame() {
   return kOmissions;
 }
 
+// What techniques by way of virtual planes share.
+constexpr Omission kReflection{
+    "Reflection at glass, outside, inside and total, unless --paths all asks for it, and then most of "
+    "what is reflected after the fourth surface at which it could be reflected or transmitted",
+    hasGlass};
+constexpr Omission kSpectrum{
+    "The spectrum: light that disperses goes in three bands, red, green and blue, not by wavelength",
+    hasDispersion};
+constexpr Omission kDetail{
+    "Detail between the rays of a caster's vertices, and finer than a texel of the virtual planes",
+    hasCaster};
+
 std::span<const Omission> omissionsOfIlluminationTextures() {
   static constexpr Omission kOmissions[] = {
-      {"Reflection at glass, outside, inside and total, unless --paths all asks for it, and then most of "
-       "what is "
-       "reflected after the fourth surface at which it could be reflected or transmitted",
-       hasGlass},
-      {"The spectrum: light that disperses goes in three bands, red, green and blue, not by wavelength",
-       hasDispersion},
+      kReflection,
+      kSpectrum,
       {"Light far from a caster's mean direction: what leaves it at more than 75 degrees from the mean, and "
-       "what "
-       "reaches surfaces that another receiver hides along the mean or that face away from it",
+       "what reaches surfaces that another receiver hides along the mean or that face away from it",
        hasCaster},
-      {"Detail between the rays of a caster's vertices, and finer than a texel of the virtual planes",
+      kDetail,
+  };
+  return kOmissions;
+}
+
+std::span<const Omission> omissionsOfSlicedImages() {
+  static constexpr Omission kOmissions[] = {
+      kReflection,
+      kSpectrum,
+      {"Light that the camera does not see along the mean direction in which it sees the light: on surfaces "
+       "that another receiver hides there or that face away, as glass and mirrors may show them",
        hasCaster},
+      {"With --interpolation blend, light that runs within 15 degrees along the sample planes", hasCaster},
+      kDetail,
   };
   return kOmissions;
 }

@@ -19,6 +19,7 @@ std::span<const Omission> omissionsOfFrame();
 // By the techniques, besides.
 std::span<const Omission> omissionsOfIlluminationTextures();
 std::span<const Omission> omissionsOfIrradianceVolumes();
+std::span<const Omission> omissionsOfSlicedImages();
 std::span<const Omission> omissionsOfNoCaustics();
 
 }  // namespace nephroid

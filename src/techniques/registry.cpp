@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "techniques/illumination_textures/illumination_textures.h"
 #include "techniques/irradiance_volume/irradiance_volume.h"
+#include "techniques/sliced_images/sliced_images.h"
 
 namespace nephroid {
 namespace {
@@ -19,6 +20,7 @@ class NoCaustics final : public Technique {
 constexpr TechniqueEntry kTechniques[] = {
     {"illumination-textures", makeIlluminationTextures, omissionsOfIlluminationTextures},
     {"irradiance-volume", makeIrradianceVolumes, omissionsOfIrradianceVolumes},
+    {"sliced-images", makeSlicedImages, omissionsOfSlicedImages},
     {"none",
      [](const TechniqueContext&) -> std::unique_ptr<Technique> { return std::make_unique<NoCaustics>(); },
      omissionsOfNoCaustics},

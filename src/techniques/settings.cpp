@@ -7,6 +7,9 @@ std::span<const SettingField> settingFields() {
   static constexpr SettingField kFields[] = {
       {"planes", "Virtual planes that caustics are drawn on, around the receivers", &Settings::planes, 1, 256,
        "sensor"},
+      {"slices",
+       "Sample planes of sliced-images, across the view; 0: as many as the receivers' depth asks for",
+       &Settings::slices, 0, 256, nullptr},
       {"texture-size", "Texels along each side of a virtual plane", &Settings::textureSize, 16, 8192,
        nullptr},
       {"directions", "Light directions held for each vertex of a light transport table",

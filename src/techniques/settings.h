@@ -36,6 +36,7 @@ struct TechniqueSettings {
   Paths paths = Paths::transmission;
   Interpolation interpolation = Interpolation::surface;
   uint32_t planes = 4;          // virtual planes; 0: a single one, in the sensor's own plane
+  uint32_t slices = 0;          // sample planes across the view; 0: as many as receivers' depth asks for
   uint32_t textureSize = 512;   // texels along a side of a virtual plane
   uint32_t directions = 129;    // per vertex of a light transport table
   std::filesystem::path baked;  // the tables or volumes to use; empty: found in the cache, or made

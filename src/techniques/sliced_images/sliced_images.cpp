@@ -1,0 +1,59 @@
+#include "techniques/sliced_images/sliced_images.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "techniques/planes/plane_technique.h"
+
+namespace nephroid {
+namespace {
+
+// When their number is not given, slices are no thicker than this part of the width that most light falls on;
+// a power of two of them, so that small motions seldom change it.
+constexpr float kThicknessOverWidth = 0.25f;
+constexpr float kMostAutomaticSlices = 16;
+constexpr float kRoomBeforeReceivers = 1e-3f;  // of their distance from the camera
+
+// Unit: the mean over the light of the direction in which the camera sees where it arrives.
+vec3 meanViewingDirection(const Camera& camera, std::span<const Arrival> arrivals) {
+  glm::dvec3 mean(0);
+  for (const Arrival& arrival : arrivals) {
+    const vec3 toward = arrival.point - camera.position;
+    const float distance = length(toward);
+    if (distance > 0) mean += glm::dvec3(toward / distance) * double(arrival.flux);
+  }
+  const vec3 axis(mean);
+  return length(axis) > 0 ? normalize(axis) : normalize(camera.target - camera.position);
+}
+
+uint32_t automaticSlices(const PlaneSet& pair) {
+  const float width = pair.windows[0].size / pair.windows[0].texelsPerMetre;
+  const float slices = std::ceil(pair.depthStep / (kThicknessOverWidth * width));
+  return std::bit_ceil(uint32_t(std::clamp(slices, 1.0f, kMostAutomaticSlices)));
+}
+
+PlaneSet plan(const Scene& scene, std::span<const Beam> beams, std::span<const ReceiverBox> boxes,
+              const TechniqueSettings& settings) {
+  const std::vector<Arrival> arrivals = findArrivals(beams, boxes);
+  const vec3 axis = meanViewingDirection(scene.camera, arrivals);
+  const float eye = dot(scene.camera.position, axis), receivers = nearestAlong(axis, boxes);
+  // Receivers across the axis lie on this side of where the virtual camera begins to see.
+  const float nearest = std::max(eye, receivers - kRoomBeforeReceivers * std::abs(receivers - eye));
+  PlaneOrder order{axis, nearest, settings.slices, settings.textureSize};
+  if (order.planes > 0) return planPlanes(order, beams, arrivals);
+  order.planes = 2;
+  const PlaneSet pair = planPlanes(order, beams, arrivals);
+  if (pair.planes < 2) return pair;
+  order.planes = automaticSlices(pair);
+  return planPlanes(order, beams, arrivals);
+}
+
+}  // namespace
+
+std::unique_ptr<Technique> makeSlicedImages(const TechniqueContext& context) {
+  return std::make_unique<PlaneTechnique>(
+      context, PlaneTechniqueTraits{plan, false, "receivers across the view", "caustics maps"});
+}
+
+}  // namespace nephroid
