@@ -14,7 +14,9 @@ std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& devic
   const Scene scene = loadScene(request.scene, request.time);
   SceneTransport transport(scene, request.technique, progress);
   const auto technique = makeTechnique({device, request.technique, transport, stats});
-  Renderer renderer(device, transport, request.render, *technique);
+  RenderSettings render = request.render;
+  render.sight.slices = request.technique.slices;
+  Renderer renderer(device, transport, render, *technique);
   stats.prepareMilliseconds += preparing.milliseconds();
 
   std::vector<FrameTime> times(request.repeat);

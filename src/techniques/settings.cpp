@@ -8,7 +8,9 @@ std::span<const SettingField> settingFields() {
       {"planes", "Virtual planes that caustics are drawn on, around the receivers", &Settings::planes, 1, 256,
        "sensor"},
       {"slices",
-       "Sample planes of sliced-images, across the view; 0: as many as the receivers' depth asks for",
+       "Sample planes across the view: sliced object images of what glass shows (16 at most), and caustics "
+       "maps "
+       "of sliced-images; 0: as many as the receivers' depth asks for",
        &Settings::slices, 0, 256, nullptr},
       {"texture-size", "Texels along each side of a virtual plane", &Settings::textureSize, 16, 8192,
        nullptr},
