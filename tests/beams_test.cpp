@@ -51,7 +51,8 @@ TEST(Footprint, LeavesItsWholeFluxWhateverItsSize) {
       const auto corner = [&] {
         return glm::clamp(center + size * vec2(unit(random), unit(random)), vec2(0), vec2(63.9f));
       };
-      const Beam beam = beamOnto(corner(), corner(), corner());
+      const vec2 a = corner(), b = corner(), c = corner();  // in this order with any compiler
+      const Beam beam = beamOnto(a, b, c);
       // Coverage of a triangle no thinner than a sliver has at least four digits.
       EXPECT_NEAR(total(depositFlux({&beam, 1}, unitGrid(), {64, 64})), 1, 2e-4)
           << "size " << size << ", " << i;

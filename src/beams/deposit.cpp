@@ -40,13 +40,13 @@ class FluxGrid {
     centerFootprint(localA, localB, localC, base);
     if (isSliver(localA, localB, localC)) return addSliver(a, b, c, flux);
     const double area = 0.5 * std::abs(doubledArea(localA, localB, localC));
-    const vec3 slopes = sideSlopes(localA, localB, localC), inverseSlopes = inverseSlopesOf(slopes);
+    const vec3 slopes = sideSlopes(localA, localB, localC);
     const vec2 last = min(upper, vec2(resolution) - 1.0f);
     for (float y = std::max(lower.y, 0.0f); y <= last.y; ++y) {
       const TriangleRow row = triangleInRow(localA, localB, localC, slopes, y - base.y);
       const float lastX = std::min(std::floor(row.last) + base.x, last.x);
       for (float x = std::max(std::floor(row.first) + base.x, 0.0f); x <= lastX; ++x)
-        add(vec2(x, y), flux * (triangleCoverage(row, inverseSlopes, x - base.x) / area));
+        add(vec2(x, y), flux * (triangleCoverage(row, x - base.x) / area));
     }
   }
 

@@ -33,27 +33,16 @@ SHARED_FUNCTION float doubledArea(vec2 a, vec2 b, vec2 c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Integral of clamp(x, 0, 1).
-SHARED_FUNCTION float clampedIntegral(float x) {
-  float inside = clamp(x, 0.0f, 1.0f);
-  return 0.5f * inside * inside + max(x - 1.0f, 0.0f);
-}
-
 // What a triangle's sides do within one row of texels: x where each enters the row and where it leaves it,
 // and how far it goes down it (texels; negative when it goes up).
 struct TriangleRow {
   vec3 ab;
   vec3 bc;
   vec3 ca;
-  float first;  // texels, the triangle's extent within the row
+  vec3 perWidth;  // of ab, bc and ca: down the row over along it; 0 where the side is upright
+  float first;    // texels, the triangle's extent within the row
   float last;
 };
-
-// y against x, where there is x against y.
-SHARED_FUNCTION vec3 inverseSlopesOf(vec3 slopes) {
-  return vec3(slopes.x != 0.0f ? 1.0f / slopes.x : 0.0f, slopes.y != 0.0f ? 1.0f / slopes.y : 0.0f,
-              slopes.z != 0.0f ? 1.0f / slopes.z : 0.0f);
-}
 
 // x against y along the sides ab, bc and ca.
 SHARED_FUNCTION vec3 sideSlopes(vec2 a, vec2 b, vec2 c) {
@@ -70,6 +59,10 @@ SHARED_FUNCTION vec3 sideInRow(vec2 a, vec2 b, float slope, float row) {
   return vec3(a.x + (y0 - y) * slope, a.x + (y1 - y) * slope, y1 - y0);
 }
 
+SHARED_FUNCTION float perWidthOf(vec3 side) {
+  return side.x != side.y ? side.z / (side.y - side.x) : 0.0f;
+}
+
 SHARED_FUNCTION void includeSide(vec3 side, INOUT(float) first, INOUT(float) last) {
   if (side.z == 0.0f) return;
   first = min(first, min(side.x, side.y));
@@ -82,6 +75,7 @@ SHARED_FUNCTION TriangleRow triangleInRow(vec2 a, vec2 b, vec2 c, vec3 slopes, f
   cut.ab = sideInRow(a, b, slopes.x, row);
   cut.bc = sideInRow(b, c, slopes.y, row);
   cut.ca = sideInRow(c, a, slopes.z, row);
+  cut.perWidth = vec3(perWidthOf(cut.ab), perWidthOf(cut.bc), perWidthOf(cut.ca));
   cut.first = 1e30f;
   cut.last = -1e30f;
   includeSide(cut.ab, cut.first, cut.last);
@@ -91,19 +85,21 @@ SHARED_FUNCTION TriangleRow triangleInRow(vec2 a, vec2 b, vec2 c, vec3 slopes, f
 }
 
 // Integral over dy, along a side within the row, of how far it lies right of the column's left side (0 to 1).
-SHARED_FUNCTION float sideCoverage(vec3 side, float inverseSlope, float column) {
-  float x0 = side.x - column;
-  float x1 = side.y - column;
-  // The second is the mean times side.z, which over the width is the inverse slope.
-  return abs(x1 - x0) < 1e-2f ? clamp(0.5f * (x0 + x1), 0.0f, 1.0f) * side.z
-                              : (clampedIntegral(x1) - clampedIntegral(x0)) * inverseSlope;
+// Only the side's own ends and the column's are subtracted, which rounds nothing: the columns' shares of an
+// almost upright side add up to it.
+SHARED_FUNCTION float sideCoverage(vec3 side, float perWidth, float column) {
+  float right = column + 1.0f;
+  float x0 = clamp(side.x, column, right);
+  float x1 = clamp(side.y, column, right);
+  float mean = 0.5f * (x0 + x1) - column;
+  if (side.x == side.y) return mean * side.z;
+  return ((x1 - x0) * mean + (max(side.y, right) - max(side.x, right))) * perWidth;
 }
 
-// Texels squared of the triangle that lie in the row's texel from `column` to `column` + 1. `inverseSlopes`
-// are of those of sideSlopes, and anything where these are zero.
-SHARED_FUNCTION float triangleCoverage(TriangleRow row, vec3 inverseSlopes, float column) {
-  return abs(sideCoverage(row.ab, inverseSlopes.x, column) + sideCoverage(row.bc, inverseSlopes.y, column) +
-             sideCoverage(row.ca, inverseSlopes.z, column));
+// Texels squared of the triangle that lie in the row's texel from `column` to `column` + 1.
+SHARED_FUNCTION float triangleCoverage(TriangleRow row, float column) {
+  return abs(sideCoverage(row.ab, row.perWidth.x, column) + sideCoverage(row.bc, row.perWidth.y, column) +
+             sideCoverage(row.ca, row.perWidth.z, column));
 }
 
 // Moves a footprint's corners to where float has digits to share it out with: texel t of the grid becomes t -

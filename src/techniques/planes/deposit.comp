@@ -304,14 +304,13 @@ void addLine(Footprint print, Target target, Block block) {
 }
 
 void addTriangle(Footprint print, Target target, Block block) {
-  const vec3 inverseSlopes = inverseSlopesOf(print.slopes);
   float y = print.lower.y + float(block.place.y);
   do {
     const TriangleRow row = triangleInRow(print.a, print.b, print.c, print.slopes, y - print.base.y);
     const float last = y <= print.upper.y ? min(floor(row.last) + print.base.x, print.upper.x) : -1;
     float x = max(floor(row.first) + print.base.x, print.lower.x) + float(block.place.x);
     do {
-      const float part = triangleCoverage(row, inverseSlopes, x - print.base.x) * print.perArea;
+      const float part = triangleCoverage(row, x - print.base.x) * print.perArea;
       if (x <= last) add(vec2(x, y), part, target);
       x += float(block.size.x);
     } while (x <= last);
