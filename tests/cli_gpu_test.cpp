@@ -119,7 +119,8 @@ v = [0, 0, 2]
 resolution = [16, 16]
 )";
   const ProgramResult result = runProgram({"compare", at("ball.toml"), "-o", at("report"), "--size", "32x24",
-                                           "--passes", "2", "--paths", "transmission", "--source", "traced"});
+                                           "--techniques", "illumination-textures,none", "--passes", "2",
+                                           "--paths", "transmission", "--source", "traced"});
   ASSERT_EQ(result.status, 0) << result.errors;
   const auto json = nlohmann::json::parse(readAll(folder / "report/report.json"));
   EXPECT_EQ(json["view"]["reference"]["passes"], 2);

@@ -147,9 +147,11 @@ void runCompare(const CompareOptions& options) {
   writeReport(options.output, comparison);
 }
 
+// All but the choice among them.
 std::vector<std::string> comparedTechniques() {
   std::vector<std::string> names;
-  for (const TechniqueEntry& entry : techniques()) names.emplace_back(entry.name);
+  for (const TechniqueEntry& entry : techniques())
+    if (entry.name != std::string_view(kAutomaticName)) names.emplace_back(entry.name);
   return names;
 }
 

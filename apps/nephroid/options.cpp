@@ -190,6 +190,11 @@ void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool i
   addPaths(command, settings);
   addChoice(command, "--interpolation", settings.interpolation, kInterpolationNames,
             "Virtual planes that bend onto the receivers, or flat ones that receivers blend");
+  addChoice(command, "--culling", settings.culling, kCullingNames,
+            "Light volumes found down their hierarchy, or each of them asked for every block of pixels");
+  addChoice(command, "--cosine", settings.cosine, kCosineNames,
+            "Between light volumes and receivers: each one's own, or that of the light's mean direction, as "
+            "still water would have it");
   addChoice(command, "--light-interpolation", settings.lightInterpolation, kLightInterpolationNames,
             "Between the light directions of an irradiance volume: the nearest, the three around by their "
             "weights, or these turned to the light");

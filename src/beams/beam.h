@@ -13,6 +13,12 @@ struct Beam {
   vec3 reach;         // m along each corner ray to the first opaque surface; kUnboundedReach: not known
 };
 
+// m past the reach of a corner ray that is still on the surface it met there, for a point `offset` m off the
+// ray: surfaces bend between one and the other.
+SHARED_FUNCTION float reachTolerance(float reach, float offset) {
+  return 1e-3f * reach + 0.25f * offset;
+}
+
 SHARED_END
 
 #endif

@@ -196,6 +196,7 @@ class Builder {
     if (!source.refines() || depth == 0) return emit(t, set);
     if (!sameWay(t)) return cut(t, depth - 1, 0, set);
     if (!arrives(t[0].ray)) return;
+    if (settings.targets.empty()) return emit(t, set);
     const std::array<Corner, 3> middles = middlesOf(t);
     bool keep = true;
     for (int i = 0; i < 3 && keep; ++i)

@@ -18,7 +18,7 @@ struct BeamSettings {
   // Texels of `targets` that the ray of a side's midpoint may lie off the middle of its ends' before the
   // triangle is cut.
   float refineTolerance = 0.1f;
-  // Planes on which bending is judged.
+  // Planes on which bending is judged. Without any, triangles are cut where their corners' rays part, alone.
   std::vector<PlaneGrid> targets;
   // Light is wanted on the first target itself, so rays that meet an opaque surface before it carry none.
   bool stopAtSurfaces = false;

@@ -172,6 +172,26 @@ SHARED_FUNCTION vec2 lineInSlab(float start, float along, float low) {
   return vec2(min(a, b), max(a, b));
 }
 
+// The part of a footprint's flux that the texel from (0, 0) to (1, 1) holds.
+SHARED_FUNCTION float shareInTexel(vec2 a, vec2 b, vec2 c) {
+  vec2 lower = min(min(a, b), c);
+  vec2 upper = max(max(a, b), c);
+  if (upper.x < 0.0f || upper.y < 0.0f || lower.x >= 1.0f || lower.y >= 1.0f) return 0.0f;
+  if (lower.x >= 0.0f && lower.y >= 0.0f && upper.x < 1.0f && upper.y < 1.0f) return 1.0f;
+  float longest = max(upper.x - lower.x, upper.y - lower.y);
+  float area = 0.5f * abs(doubledArea(a, b, c));
+  // A line, unless it is wide enough to be seen as more. Too small a triangle has too few digits.
+  if (longest < 3e-3f || (isSliver(a, b, c) && area < longest)) {
+    float peak = sortSliver(a, b, c);
+    vec2 column = lineInSlab(a.x, c.x - a.x, 0.0f);
+    vec2 row = lineInSlab(a.y, c.y - a.y, 0.0f);
+    float first = clamp(max(column.x, row.x), 0.0f, 1.0f);
+    float last = clamp(min(column.y, row.y), 0.0f, 1.0f);
+    return max(tentBefore(last, peak) - tentBefore(first, peak), 0.0f);
+  }
+  return triangleCoverage(triangleInRow(a, b, c, sideSlopes(a, b, c), 0.0f), 0.0f) / area;
+}
+
 SHARED_END
 
 #endif

@@ -5,6 +5,15 @@
 
 namespace nephroid {
 
+void setCount(Stats& stats, const std::string& name, uint64_t count) {
+  for (auto& [known, value] : stats.counts)
+    if (known == name) {
+      value = count;
+      return;
+    }
+  stats.counts.emplace_back(name, count);
+}
+
 std::string statsJson(const Stats& stats) {
   using Json = nlohmann::ordered_json;
   Json passes = Json::array();

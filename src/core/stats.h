@@ -26,6 +26,9 @@ struct Stats {
   uint64_t memoryBytes = 0;  // on the device
 };
 
+// In place of the count of that name, if there is one.
+void setCount(Stats& stats, const std::string& name, uint64_t count);
+
 // {"device", "technique", "source", "prepare_ms", "frame_ms", "passes": [{"name", "ms"}], "counts": {...},
 // "memory_bytes"}
 std::string statsJson(const Stats& stats);

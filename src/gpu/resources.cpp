@@ -55,6 +55,11 @@ Buffer createBuffer(Device& device, const std::string& name, VkDeviceSize bytes,
   return buffer;
 }
 
+void ensureBuffer(Device& device, Buffer& buffer, const std::string& name, VkDeviceSize bytes,
+                  MemoryKind kind) {
+  if (!buffer || buffer.size() < bytes) buffer = createBuffer(device, name, bytes + bytes / 2, kind);
+}
+
 Image::~Image() {
   if (!handle_) return;
   for (const VkImageView view : layerViews_) vkDestroyImageView(device_->handle(), view, nullptr);

@@ -65,6 +65,11 @@ class Buffer {
 Buffer createBuffer(Device& device, const std::string& name, VkDeviceSize bytes,
                     MemoryKind kind = MemoryKind::device);
 
+// Replaces a buffer smaller than `bytes` by a larger one: half as much again, so that what grows from frame
+// to frame does not ask for memory in each. Contents are not kept.
+void ensureBuffer(Device& device, Buffer& buffer, const std::string& name, VkDeviceSize bytes,
+                  MemoryKind kind = MemoryKind::device);
+
 struct ImageOptions {
   VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
   uint32_t width = 1;

@@ -80,6 +80,7 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
       for (const SeenImages& seen : images_.dispersed) light(commands, seen, sight_.region());
     commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}); });
   });
+  technique_.finish();
   passes.insert(passes.end(), onDevice.begin(), onDevice.end());
   return summedByName(passes);
 }

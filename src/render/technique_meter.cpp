@@ -11,6 +11,10 @@ namespace {
 constexpr uint32_t kPointsAlongTexel = 4;  // at once
 constexpr uint32_t kPasses = 4;            // times, between them
 
+uint32_t pointsAlongTexel(const Technique& technique) {
+  return technique.coversSquares() ? 1 : kPointsAlongTexel;
+}
+
 // The scene and a diffuse quad on the sensor, since techniques light receivers; and a camera that looks at it
 // along the sensor's normal, for those that ask where receivers are seen from.
 Scene withReceiver(Scene scene, const Sensor& sensor) {
@@ -32,10 +36,10 @@ Scene withReceiver(Scene scene, const Sensor& sensor) {
   return scene;
 }
 
-gpu::Image pointImage(gpu::Device& device, const char* name, const Sensor& sensor) {
-  return gpu::createImage(
-      device, name,
-      {.width = sensor.resolution.x * kPointsAlongTexel, .height = sensor.resolution.y * kPointsAlongTexel});
+gpu::Image pointImage(gpu::Device& device, const char* name, const Sensor& sensor,
+                      const Technique& technique) {
+  const uvec2 size = sensor.resolution * pointsAlongTexel(technique);
+  return gpu::createImage(device, name, {.width = size.x, .height = size.y});
 }
 
 std::vector<std::vector<std::byte>> bytesOf(const std::vector<vec4>& texels) {
@@ -53,9 +57,9 @@ TechniqueMeter::TechniqueMeter(gpu::Device& deviceToUse, const Scene& sceneToRea
       gpuScene(device, scene),
       transport(scene, settings, progress),
       technique(makeTechnique({device, settings, transport, stats})),
-      positions(pointImage(device, "sensor positions", sensor)),
-      normals(pointImage(device, "sensor normals", sensor)),
-      caustics(pointImage(device, "sensor caustics", sensor)) {
+      positions(pointImage(device, "sensor positions", sensor, *technique)),
+      normals(pointImage(device, "sensor normals", sensor, *technique)),
+      caustics(pointImage(device, "sensor caustics", sensor, *technique)) {
   uploadNormals();
 }
 
@@ -81,9 +85,10 @@ void TechniqueMeter::addShaded(SensorLayer& layer) {
     technique->shade(commands, {&positions, &normals}, caustics);
   });
   const std::vector<vec4> points = gpu::download<vec4>(device, caustics);
+  const uint32_t along = pointsAlongTexel(*technique);
   for (uint32_t y = 0; y < caustics.height(); ++y)
     for (uint32_t x = 0; x < caustics.width(); ++x)
-      layer[std::size_t(y / kPointsAlongTexel) * sensor.resolution.x + x / kPointsAlongTexel] +=
+      layer[std::size_t(y / along) * sensor.resolution.x + x / along] +=
           vec3(points[std::size_t(y) * caustics.width() + x]);
 }
 
@@ -93,11 +98,13 @@ SensorLayer TechniqueMeter::read() {
   technique->update(gpuScene);
   device.submitAndWait([&](gpu::CommandList& commands) { technique->record(commands, gpuScene); });
   SensorLayer layer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
-  for (uint32_t pass = 0; pass < kPasses * kPasses; ++pass) {
-    uploadPoints((vec2(float(pass % kPasses), float(pass / kPasses)) + 0.5f) / float(kPasses));
+  const uint32_t passes = technique->coversSquares() ? 1 : kPasses;
+  for (uint32_t pass = 0; pass < passes * passes; ++pass) {
+    uploadPoints((vec2(float(pass % passes), float(pass / passes)) + 0.5f) / float(passes));
     addShaded(layer);
   }
-  const float points = float(kPointsAlongTexel * kPasses);
+  technique->finish();
+  const float points = float(pointsAlongTexel(*technique) * passes);
   for (vec3& lux : layer) lux /= points * points;
   return layer;
 }

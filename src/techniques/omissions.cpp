@@ -131,6 +131,17 @@ std::span<const Omission> omissionsOfIrradianceVolumes() {
   return kOmissions;
 }
 
+std::span<const Omission> omissionsOfLightVolumes() {
+  static constexpr Omission kOmissions[] = {
+      kReflection,
+      kSpectrum,
+      {"Detail between the rays of a caster's vertices; where receivers hide each other from the light, "
+       "that between beams",
+       hasCaster},
+  };
+  return kOmissions;
+}
+
 std::span<const Omission> omissionsOfNoCaustics() {
   static constexpr Omission kOmissions[] = {
       {"Caustics: light that met glass or a mirror is not drawn at all", hasCaster},

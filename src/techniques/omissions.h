@@ -20,6 +20,7 @@ std::span<const Omission> omissionsOfFrame();
 std::span<const Omission> omissionsOfIlluminationTextures();
 std::span<const Omission> omissionsOfIrradianceVolumes();
 std::span<const Omission> omissionsOfSlicedImages();
+std::span<const Omission> omissionsOfLightVolumes();
 std::span<const Omission> omissionsOfNoCaustics();
 
 }  // namespace nephroid

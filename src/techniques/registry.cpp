@@ -1,10 +1,12 @@
 #include "techniques/registry.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "core/error.h"
 #include "techniques/illumination_textures/illumination_textures.h"
 #include "techniques/irradiance_volume/irradiance_volume.h"
+#include "techniques/light_volumes/light_volumes.h"
 #include "techniques/sliced_images/sliced_images.h"
 
 namespace nephroid {
@@ -17,9 +19,53 @@ class NoCaustics final : public Technique {
   void shade(gpu::CommandList&, const ReceiverPoints&, const gpu::Image&) override {}
 };
 
+// What suits each caster: water's light by light volumes, that of all else by illumination textures.
+class Automatic final : public Technique {
+ public:
+  explicit Automatic(const TechniqueContext& context) {
+    const Scene& scene = context.transport.scene();
+    bool isWaterThere = false, isSolidThere = false;
+    for (const Object& object : scene.objects) {
+      if (!scene.isCaster(object)) continue;
+      (object.water ? isWaterThere : isSolidThere) = true;
+    }
+    TechniqueContext own = context;
+    own.casters = Casters::solid;
+    if (isSolidThere || !isWaterThere) parts.push_back(makeIlluminationTextures(own));
+    own.casters = Casters::water;
+    if (isWaterThere) parts.push_back(makeLightVolumes(own));
+  }
+
+  void update(GpuScene& gpuScene) override {
+    for (const auto& part : parts) part->update(gpuScene);
+  }
+  void record(gpu::CommandList& commands, GpuScene& gpuScene) override {
+    for (const auto& part : parts) part->record(commands, gpuScene);
+  }
+  void shade(gpu::CommandList& commands, const ReceiverPoints& points,
+             const gpu::Image& causticsLux) override {
+    for (const auto& part : parts) part->shade(commands, points, causticsLux);
+  }
+  bool coversSquares() const override {
+    return std::ranges::all_of(parts, [](const auto& part) { return part->coversSquares(); });
+  }
+  void finish() override {
+    for (const auto& part : parts) part->finish();
+  }
+
+ private:
+  std::vector<std::unique_ptr<Technique>> parts;
+};
+
 constexpr TechniqueEntry kTechniques[] = {
+    {kAutomaticName,
+     [](const TechniqueContext& context) -> std::unique_ptr<Technique> {
+       return std::make_unique<Automatic>(context);
+     },
+     omissionsOfIlluminationTextures},
     {"illumination-textures", makeIlluminationTextures, omissionsOfIlluminationTextures},
     {"irradiance-volume", makeIrradianceVolumes, omissionsOfIrradianceVolumes},
+    {"light-volumes", makeLightVolumes, omissionsOfLightVolumes},
     {"sliced-images", makeSlicedImages, omissionsOfSlicedImages},
     {"none",
      [](const TechniqueContext&) -> std::unique_ptr<Technique> { return std::make_unique<NoCaustics>(); },

@@ -7,6 +7,7 @@
 
 #include "core/progress.h"
 #include "core/stats.h"
+#include "techniques/light_beams.h"
 #include "techniques/omissions.h"
 #include "techniques/settings.h"
 #include "techniques/sources.h"
@@ -20,7 +21,11 @@ struct TechniqueContext {
   const TechniqueSettings& settings;
   SceneTransport& transport;
   Stats& stats;  // a technique adds its counts
+  Casters casters = Casters::all;
 };
+
+// What suits each caster.
+inline constexpr const char* kAutomaticName = "automatic";
 
 struct TechniqueEntry {
   const char* name;

@@ -20,10 +20,19 @@ enum class Source { table, traced };
 // as planes are added.
 enum class Interpolation { surface, blend };
 
+// How light volumes are found for a block of pixels: down their hierarchy, or each of them asked.
+enum class Culling { hierarchical, flat };
+
+// The cosine between a light volume and a receiver's normal: each volume's own, or that of the light's mean
+// direction, which through still water is that of all of it (Barczak and Olano, 3.2).
+enum class Cosine { exact, stillWater };
+
 // In the order of the enumerators.
 inline constexpr std::array<const char*, 2> kSourceNames{"table", "traced"};
 inline constexpr std::array<const char*, 2> kPathsNames{"transmission", "all"};
 inline constexpr std::array<const char*, 2> kInterpolationNames{"surface", "blend"};
+inline constexpr std::array<const char*, 2> kCullingNames{"hierarchical", "flat"};
+inline constexpr std::array<const char*, 2> kCosineNames{"exact", "still-water"};
 inline constexpr std::array<const char*, 3> kLightInterpolationNames{"nearest", "barycentric", "rotated"};
 
 // How an irradiance volume is kept; as kRepresentation... of irradiance_volume/lookup.h.
@@ -31,7 +40,7 @@ enum class Representation { grid, shells };
 inline constexpr std::array<const char*, 2> kRepresentationNames{"grid", "shells"};
 
 struct TechniqueSettings {
-  std::string technique = "illumination-textures";  // a name of the registry
+  std::string technique = "automatic";  // a name of the registry
   Source source = Source::table;
   Paths paths = Paths::transmission;
   Interpolation interpolation = Interpolation::surface;
@@ -41,6 +50,8 @@ struct TechniqueSettings {
   uint32_t directions = 129;    // per vertex of a light transport table
   std::filesystem::path baked;  // the tables or volumes to use; empty: found in the cache, or made
   uint32_t refineDepth = 2;     // times a beam may be halved along its edges
+  Culling culling = Culling::hierarchical;
+  Cosine cosine = Cosine::exact;
   LightInterpolation lightInterpolation = LightInterpolation::rotated;
   Representation representation = Representation::grid;
   uint32_t volumeKilobytes = 360;  // of an irradiance volume, for each light direction
@@ -59,6 +70,12 @@ inline const char* nameOf(Interpolation interpolation) {
   return kInterpolationNames[static_cast<std::size_t>(interpolation)];
 }
 
+inline const char* nameOf(Culling culling) {
+  return kCullingNames[static_cast<std::size_t>(culling)];
+}
+inline const char* nameOf(Cosine cosine) {
+  return kCosineNames[static_cast<std::size_t>(cosine)];
+}
 inline const char* nameOf(Representation representation) {
   return kRepresentationNames[static_cast<std::size_t>(representation)];
 }

@@ -29,6 +29,13 @@ class Technique {
   // What the device does that no view has a part in.
   virtual void record(gpu::CommandList& commands, GpuScene& gpuScene) = 0;
 
+  // Whether what `shade` adds is the mean over a point's square of the receiver, out to half its neighbours,
+  // and not what its centre gets.
+  virtual bool coversSquares() const { return false; }
+
+  // After the device has done a frame's work.
+  virtual void finish() {}
+
   // Adds to `causticsLux` (rgba32f, the size of the points) the illuminance (lux) on each receiver point by
   // light that met a caster, in the region asked for. May be called several times a frame. Synchronised with
   // all before it; what it records is named by passes of its own.

@@ -50,12 +50,6 @@ std::array<vec3, 8> cornersOf(const Object& object, const MeshExtent& extent) {
   return corners;
 }
 
-void ensure(gpu::Device& device, gpu::Buffer& buffer, const char* name, std::size_t bytes) {
-  // Half as much again, so that a caster that comes nearer does not ask for memory in each frame.
-  if (buffer.size() < bytes)
-    buffer = gpu::createBuffer(device, name, bytes + bytes / 2, gpu::MemoryKind::upload);
-}
-
 }  // namespace
 
 SightPass::SightPass(gpu::Device& device, const SightSettings& settings)
@@ -142,9 +136,11 @@ void SightPass::upload(const View& view) {
     vertexCount += mesh.vertices.size();
     indexCount += mesh.indices.size();
   }
-  ensure(device_, vertices_, "sight's vertices", vertexCount * sizeof(SightVertex));
-  ensure(device_, indices_, "sight's indices", indexCount * sizeof(uint32_t));
-  ensure(device_, camera_, "camera", sizeof(mat4));
+  gpu::ensureBuffer(device_, vertices_, "sight's vertices", vertexCount * sizeof(SightVertex),
+                    gpu::MemoryKind::upload);
+  gpu::ensureBuffer(device_, indices_, "sight's indices", indexCount * sizeof(uint32_t),
+                    gpu::MemoryKind::upload);
+  gpu::ensureBuffer(device_, camera_, "camera", sizeof(mat4), gpu::MemoryKind::upload);
   camera_.write(std::span<const mat4>(&view.worldToClip, 1));
   std::size_t vertex = 0, index = 0, next = 0;
   for (SeenCaster& caster : casters_)

@@ -8,19 +8,13 @@
 #include "shaders/receivers_vert.h"
 #include "shaders/shade_frag.h"
 #include "shaders/whole_picture_vert.h"
-#include "techniques/planes/light_beams.h"
+#include "techniques/light_beams.h"
 
 namespace nephroid {
 namespace {
 
 // As many as the fewest workgroups of one dispatch that Vulkan promises can hold, at 64 threads each.
 constexpr std::size_t kMostBeamsADispatch = 65535 * 64;
-
-void ensure(gpu::Device& device, gpu::Buffer& buffer, const char* name, VkDeviceSize bytes,
-            gpu::MemoryKind kind) {
-  // Half as much again, so that a caustic that grows from frame to frame does not ask for memory in each.
-  if (buffer.size() < bytes) buffer = gpu::createBuffer(device, name, bytes + bytes / 2, kind);
-}
 
 // Of a window, which begins in a corner of images of `imageSize` texels along a side.
 ViewConstants viewOf(const PlaneSet& set, uint32_t window, uint32_t imageSize) {
@@ -66,6 +60,7 @@ PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechn
       traits(traitsOf),
       stats(context.stats),
       transport(context.transport),
+      casters(context.casters),
       source(transport.source()),
       receiversProgram(
           gpu::createRasterProgram(device, traits.viewPass, shaders::receivers_vert, shaders::receivers_frag,
@@ -80,16 +75,7 @@ PlaneTechnique::LitPlanes PlaneTechnique::light(std::span<const BandQuery> queri
                                                 std::span<const ReceiverBox> boxes) const {
   const Scene& scene = transport.scene();
   LitPlanes result;
-  result.beams = beamsOf(scene, source, queries, {.refineDepth = 0, .targets = {}});
-  if (source.refines() && settings.refineDepth > 0) {
-    const PlaneSet along = planAlongLight(result.beams, boxes, 2, settings.textureSize);
-    if (along.planes == 0) return result;
-    BeamSettings refined;
-    refined.refineDepth = settings.refineDepth;
-    refined.refineTolerance = 0.5f;
-    refined.targets = {planeGrid(along, 0, 0), planeGrid(along, along.planes - 1, 0)};
-    result.beams = beamsOf(scene, source, queries, refined);
-  }
+  result.beams = refinedBeams(scene, source, queries, boxes, settings);
   result.planes = traits.plan(scene, result.beams, boxes, settings);
   if (result.planes.planes == 0) return result;
   result.channels = areOfOneColor(result.beams) ? 1 : 3;
@@ -100,21 +86,22 @@ void PlaneTechnique::update(GpuScene&) {
   const std::vector<ReceiverBox> boxes = receiverBoxes(transport.scene());
   lit.clear();
   std::size_t beamCount = 0;
-  for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths)) {
+  for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths, casters)) {
     LitPlanes own = light(queries, boxes);
     if (own.planes.planes == 0) continue;
     beamCount += own.beams.size();
     lit.push_back(std::move(own));
   }
-  stats.counts = {{"beams", beamCount}, {"plane_sets", lit.size()}};
+  setCount(stats, "beams", beamCount);
+  setCount(stats, "plane_sets", lit.size());
   upload();
 }
 
 void PlaneTechnique::upload() {
   beamBytes = 0;
   for (const LitPlanes& own : lit) beamBytes += own.beams.size() * sizeof(Beam);
-  ensure(device, beamUpload, "beams to upload", beamBytes, gpu::MemoryKind::upload);
-  ensure(device, beams, "beams", beamBytes, gpu::MemoryKind::device);
+  gpu::ensureBuffer(device, beamUpload, "beams to upload", beamBytes, gpu::MemoryKind::upload);
+  gpu::ensureBuffer(device, beams, "beams", beamBytes, gpu::MemoryKind::device);
   VkDeviceSize offset = 0;
   for (const LitPlanes& own : lit) {
     beamUpload.write(own.beams, offset);

@@ -59,6 +59,7 @@ class PlaneTechnique final : public Technique {
   const PlaneTechniqueTraits traits;
   Stats& stats;
   SceneTransport& transport;
+  const Casters casters;
   const TransportSource& source;
 
   gpu::Program receiversProgram;

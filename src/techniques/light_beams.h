@@ -5,19 +5,30 @@
 #include <vector>
 
 #include "beams/build.h"
+#include "techniques/planes/plan.h"
 #include "techniques/sources.h"
 #include "transport/queries.h"
 
 namespace nephroid {
 
+// Which casters' light a technique takes.
+enum class Casters { all, water, solid };
+
 // For each portion what is to be asked: light of one lamp through one caster, along one choice of
 // reflections. The points of a line are one lamp as far as they shine on the caster from nearly one
 // direction.
-std::vector<std::vector<BandQuery>> lightThroughCasters(const SceneTransport& transport, Paths paths);
+std::vector<std::vector<BandQuery>> lightThroughCasters(const SceneTransport& transport, Paths paths,
+                                                        Casters casters);
 
 // The beams of all these queries, in their order.
 std::vector<Beam> beamsOf(const Scene& scene, const TransportSource& source,
                           std::span<const BandQuery> queries, const BeamSettings& settings);
+
+// The beams of one portion, of triangles cut where the light within them parts or bends on its way to the
+// receivers in `boxes`.
+std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source,
+                               std::span<const BandQuery> queries, std::span<const ReceiverBox> boxes,
+                               const TechniqueSettings& settings);
 
 // Whether all have the same colour, so that one channel and a tint tell all.
 bool areOfOneColor(std::span<const Beam> beams);

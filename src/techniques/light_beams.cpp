@@ -1,4 +1,4 @@
-#include "techniques/planes/light_beams.h"
+#include "techniques/light_beams.h"
 
 #include <algorithm>
 
@@ -30,6 +30,10 @@ std::size_t endOfLamp(vec3 center, std::span<const Emitter> emitters, std::size_
   return last;
 }
 
+bool isAmong(const Object& object, Casters casters) {
+  return casters == Casters::all || object.water.has_value() == (casters == Casters::water);
+}
+
 void addPortions(std::vector<BandQuery> queries, std::vector<std::vector<BandQuery>>& portions) {
   std::ranges::stable_sort(queries, {}, [](const BandQuery& band) { return band.query.reflections; });
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -40,14 +44,15 @@ void addPortions(std::vector<BandQuery> queries, std::vector<std::vector<BandQue
 
 }  // namespace
 
-std::vector<std::vector<BandQuery>> lightThroughCasters(const SceneTransport& transport, Paths paths) {
+std::vector<std::vector<BandQuery>> lightThroughCasters(const SceneTransport& transport, Paths paths,
+                                                        Casters casters) {
   const Scene& scene = transport.scene();
   const std::vector<Emitter> emitters = emittersOf(scene);
   std::vector<MediumStack> media;
   for (const Emitter& emitter : emitters) media.push_back(transport.mediaAround(emitter));
   std::vector<std::vector<BandQuery>> portions;
   for (uint32_t object = 0; object < scene.objects.size(); ++object) {
-    if (!scene.isCaster(scene.objects[object])) continue;
+    if (!scene.isCaster(scene.objects[object]) || !isAmong(scene.objects[object], casters)) continue;
     const vec3 center = centerOf(scene, scene.objects[object]);
     for (std::size_t first = 0, last; first < emitters.size(); first = last) {
       last = endOfLamp(center, emitters, first);
@@ -73,6 +78,23 @@ std::vector<Beam> beamsOf(const Scene& scene, const TransportSource& source,
     }
   }
   return all;
+}
+
+std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source,
+                               std::span<const BandQuery> queries, std::span<const ReceiverBox> boxes,
+                               const TechniqueSettings& settings) {
+  BeamSettings refined{.refineDepth = 0, .targets = {}};
+  const bool isWater = scene.objects[queries.front().query.object].water.has_value();
+  if (isWater) refined.refineDepth = settings.refineDepth;
+  std::vector<Beam> beams = beamsOf(scene, source, queries, refined);
+  // The grid of water is as fine as its waves.
+  if (isWater || !source.refines() || settings.refineDepth == 0) return beams;
+  const PlaneSet along = planAlongLight(beams, boxes, 2, settings.textureSize);
+  if (along.planes == 0) return beams;
+  refined.refineDepth = settings.refineDepth;
+  refined.refineTolerance = 0.5f;
+  refined.targets = {planeGrid(along, 0, 0), planeGrid(along, along.planes - 1, 0)};
+  return beamsOf(scene, source, queries, refined);
 }
 
 bool areOfOneColor(std::span<const Beam> beams) {
