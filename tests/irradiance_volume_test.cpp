@@ -9,6 +9,7 @@
 #include "closed_forms.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "irradiance_volume/harmonics.h"
 #include "irradiance_volume/volume_file.h"
 #include "scene/shapes.h"
 #include "temporary_folder.h"
@@ -152,6 +153,7 @@ class IrradianceVolumeAs : public testing::TestWithParam<uint32_t> {
   static VolumeSettings settings(uint32_t kilobytes, uint32_t photons) {
     VolumeSettings settings = someSettings();
     settings.representation = GetParam();
+    settings.error = settings.representation == kRepresentationMultiResolution ? 5 : 0;
     settings.kilobytes = kilobytes;
     settings.photons = photons;
     return settings;
@@ -213,10 +215,72 @@ TEST_P(IrradianceVolumeAs, ShowsABallsLightWhereItFalls) {
   EXPECT_LT(std::sqrt(error / sum), 0.1);
 }
 
+std::string nameOf(const testing::TestParamInfo<uint32_t>& test) {
+  constexpr const char* kNames[] = {"Grid", "Shells", "MultiResolution"};
+  return kNames[test.param];
+}
+
 INSTANTIATE_TEST_SUITE_P(Representations, IrradianceVolumeAs,
-                         testing::Values(kRepresentationGrid, kRepresentationShells), [](const auto& test) {
-                           return test.param == kRepresentationGrid ? "Grid" : "Shells";
-                         });
+                         testing::Values(kRepresentationGrid, kRepresentationShells,
+                                         kRepresentationMultiResolution),
+                         nameOf);
+
+// Of a finest grid, at a part of its size.
+TEST(IrradianceVolume, TakesLessWhereLessIsNeeded) {
+  const Mesh ball = makeSphere(0.5f, {.vertices = 6000});
+  VolumeSettings settings = someSettings();
+  settings.kilobytes = 1440;
+  settings.representation = kRepresentationMultiResolution;
+  std::size_t before = 1440000;
+  for (const uint32_t error : {5u, 20u, 100u}) {
+    settings.error = error;
+    const std::size_t bytes = IrradianceVolume(ball, glass(), settings, {}).sample(0).words.size_bytes();
+    EXPECT_LT(bytes, before);
+    before = bytes;
+  }
+  EXPECT_LT(before, 300000u);
+}
+
+TEST(SphericalHarmonics, AreOrthonormal) {
+  const LightSphere sphere(4);
+  constexpr uint32_t kOrder = 6, kCount = (kOrder + 1) * (kOrder + 1);
+  std::vector<double> products(kCount * kCount, 0);
+  double solidAngle = 0;
+  for (const uvec3& t : sphere.triangles()) {
+    const vec3 a = sphere.directions()[t.x], b = sphere.directions()[t.y], c = sphere.directions()[t.z];
+    const double area = double(length(cross(b - a, c - a))) / 2;
+    const std::vector<float> values = sphericalHarmonics(kOrder, normalize(a + b + c));
+    for (uint32_t i = 0; i < kCount; ++i)
+      for (uint32_t j = 0; j < kCount; ++j) products[i * kCount + j] += area * double(values[i] * values[j]);
+    solidAngle += area;
+  }
+  for (uint32_t i = 0; i < kCount; ++i)
+    for (uint32_t j = 0; j < kCount; ++j)
+      EXPECT_NEAR(products[i * kCount + j] * 4 * std::numbers::pi / solidAngle, i == j ? 1 : 0, 0.01);
+}
+
+// Blurred over light directions, a ball's light still crosses the plane behind it.
+TEST(IrradianceVolume, KeepsTheFluxOfABallInSphericalHarmonics) {
+  const Mesh ball = makeSphere(0.5f, {.vertices = 3000});
+  VolumeSettings settings = someSettings();
+  settings.lightLevel = 2;
+  settings.representation = kRepresentationHarmonics;
+  const vec3 light = normalize(vec3(0.3f, -1, 0.2f));
+  double before = 0;
+  for (const uint32_t order : {2u, 5u}) {
+    settings.order = order;
+    settings.kilobytes = 20;
+    IrradianceVolume volume(ball, glass(), settings, {});
+    EXPECT_EQ(volume.sampleCount(), (order + 1) * (order + 1));
+    // More of the light is on the disc, rather than spread around the ball, the higher the order.
+    const double part =
+        fluxThrough(volume, light, 0.8f * light, light) / ballLensRings(0.5, 0.8, 1.5, 0.5, 1)[0];
+    EXPECT_GT(part, before);
+    EXPECT_LT(part, 1.05);
+    before = part;
+  }
+  EXPECT_GT(before, 0.8);
+}
 
 // What a body of revolution sends on turns with the light.
 TEST(IrradianceVolume, TurnsWithTheLightAboutAnAxis) {

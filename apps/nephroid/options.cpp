@@ -175,8 +175,9 @@ void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorK
 
 void addRepresentation(CLI::App& command, TechniqueSettings& settings) {
   addChoice(command, "--representation", settings.representation, kRepresentationNames,
-            "How an irradiance volume is kept: on a uniform grid around the light, or on concentric shells "
-            "placed where the light changes");
+            "How an irradiance volume is kept: on a uniform grid around the light, on concentric shells "
+            "placed where the light changes, on a grid whose bricks are as fine as the light needs, "
+            "or as spherical harmonics over light directions");
 }
 
 void addPaths(CLI::App& command, TechniqueSettings& settings) {

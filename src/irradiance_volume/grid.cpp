@@ -48,19 +48,6 @@ Span litSpan(std::span<const PhotonPath> paths, int axis) {
   return {all.first + float(first) * width, all.first + float(last) * width};
 }
 
-// Cubic cells, as many as there is room for.
-SampleLayout gridAround(const LitBox& box, std::size_t cells) {
-  const vec3 extent = max(box.high - box.low, vec3(1e-3f));
-  float cell = std::cbrt(extent.x * extent.y * extent.z / float(cells));
-  uvec3 size;
-  for (;; cell *= 1.005f) {
-    size = uvec3(ceil(extent / cell));
-    if (std::size_t{size.x} * size.y * size.z <= cells) break;
-  }
-  const vec3 slack = vec3(size) * cell - extent;
-  return {box.low - 0.5f * slack, 1 / cell, size, size.x * size.y * size.z * kWordsOfCell};
-}
-
 // The part of a path, from `first` to `last`, that lies in layers `low` to `high` of the grid.
 bool clip(vec3 origin, vec3 direction, vec3 low, vec3 high, float& first, float& last) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -132,26 +119,41 @@ LitBox litBox(std::span<const PhotonPath> paths) {
   return box;
 }
 
-VolumeSample gridSample(std::span<const PhotonPath> paths, std::size_t bytes) {
-  VolumeSample sample;
-  const std::size_t cells = std::max<std::size_t>(bytes / (kWordsOfCell * sizeof(uint32_t)), 8);
-  sample.layout = gridAround(litBox(paths), cells);
-  const SampleLayout& layout = sample.layout;
-  sample.words.resize(layout.words);
+SampleLayout gridAround(const LitBox& box, std::size_t cells) {
+  const vec3 extent = max(box.high - box.low, vec3(1e-3f));
+  float cell = std::cbrt(extent.x * extent.y * extent.z / float(cells));
+  uvec3 size;
+  for (;; cell *= 1.005f) {
+    size = uvec3(ceil(extent / cell));
+    if (std::size_t{size.x} * size.y * size.z <= cells) break;
+  }
+  const vec3 slack = vec3(size) * cell - extent;
+  return {box.low - 0.5f * slack, 1 / cell, size, size.x * size.y * size.z * kWordsOfCell};
+}
+
+std::vector<CellSum> gridSums(std::span<const PhotonPath> paths, const SampleLayout& layout) {
   const std::size_t layerCells = std::size_t{layout.size.x} * layout.size.y;
-  // Lengths were counted in cells, and a cell's volume is its side's cube.
+  std::vector<CellSum> cells(layerCells * layout.size.z);
+  // Lengths are counted in cells, and a cell's volume is its side's cube.
   const float perVolume = layout.placesPerUnit * layout.placesPerUnit;
   const uint32_t tasks = (layout.size.z + kLayersPerTask - 1) / kLayersPerTask;
   oneapi::tbb::parallel_for(uint32_t{0}, tasks, [&](uint32_t task) {
     const uint32_t low = task * kLayersPerTask;
     const uint32_t high = std::min(low + kLayersPerTask, layout.size.z);
-    std::vector<CellSum> sums(layerCells * (high - low));
-    fillLayers(paths, layout, low, high, sums);
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      sums[i].vector *= perVolume;
-      packCell(sums[i], &sample.words[(low * layerCells + i) * kWordsOfCell]);
-    }
+    const std::span<CellSum> layers = std::span(cells).subspan(low * layerCells, (high - low) * layerCells);
+    fillLayers(paths, layout, low, high, layers);
+    for (CellSum& cell : layers) cell.vector *= perVolume;
   });
+  return cells;
+}
+
+VolumeSample gridSample(std::span<const PhotonPath> paths, std::size_t bytes) {
+  VolumeSample sample;
+  const std::size_t cells = std::max<std::size_t>(bytes / (kWordsOfCell * sizeof(uint32_t)), 8);
+  sample.layout = gridAround(litBox(paths), cells);
+  sample.words.resize(sample.layout.words);
+  const std::vector<CellSum> sums = gridSums(paths, sample.layout);
+  for (std::size_t i = 0; i < sums.size(); ++i) packCell(sums[i], &sample.words[i * kWordsOfCell]);
   return sample;
 }
 

@@ -15,6 +15,12 @@ struct LitBox {
 // What holds all of the paths' light but 0.1 %. Empty where there is none.
 LitBox litBox(std::span<const PhotonPath> paths);
 
+// Cubic cells around the box, at most `cells` of them.
+SampleLayout gridAround(const LitBox& box, std::size_t cells);
+
+// The mean of every cell over its volume, by x, then y, then z.
+std::vector<CellSum> gridSums(std::span<const PhotonPath> paths, const SampleLayout& layout);
+
 // The mean of every cell over its volume, in at most `bytes`. Exact in flux: a path leaves in a cell what it
 // does on its way through.
 VolumeSample gridSample(std::span<const PhotonPath> paths, std::size_t bytes);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/shared_language.h"
@@ -23,6 +24,10 @@ class LightSphere {
   explicit LightSphere(uint32_t level);
 
   const std::vector<vec3>& directions() const { return directions_; }  // unit
+  // The finest triangles between them, counter-clockwise from outside.
+  std::span<const uvec3> triangles() const {
+    return std::span(triangles_).last(std::size_t{20} << (2 * level_));
+  }
   // The spherical triangle that the unit vector points through, and its barycentric coordinates there.
   DirectionTriangle around(vec3 direction) const;
 

@@ -27,6 +27,8 @@ SHARED_BEGIN
 
 SHARED_CONSTANT uint kRepresentationGrid = 0u;
 SHARED_CONSTANT uint kRepresentationShells = 1u;
+SHARED_CONSTANT uint kRepresentationMultiResolution = 2u;
+SHARED_CONSTANT uint kRepresentationHarmonics = 3u;  // resolved into a grid before it is looked up
 
 SHARED_CONSTANT uint kWordsOfCell = 2u;
 // What the cells of shells come after: how far around the light's direction the shells reach, as a part of
@@ -36,6 +38,10 @@ SHARED_CONSTANT uint kShellWords = kShellRadii + 2u;
 // Shells hold light times the square of its distance from the centre, in regions' radii, no less than this:
 // what spreads from there changes little from shell to shell.
 SHARED_CONSTANT float kLeastShellSquare = 1e-3f;
+
+// Intervals between the finest values along the side of a brick of a multi-resolution volume.
+SHARED_CONSTANT uint kBrickIntervals = 8u;
+SHARED_CONSTANT uint kDarkBrick = 0xffffffffu;
 
 // Light that passes a place. On a surface of unit normal n that light falls on from its front alone, the
 // illuminance is -dot(n, vector), lux for light of 1 lux, shared out on channels by `color`. Facing the
@@ -65,26 +71,47 @@ SHARED_FUNCTION void addCell(VolumeView volume, uint cell, float weight, INOUT(V
   light.color += (abs(vector.x) + abs(vector.y) + abs(vector.z)) * vec3(red, 1.0f - red - blue, blue);
 }
 
-// `place` in cells from the grid's corner; nothing beyond the grid. Its cells come after `first` others.
-SHARED_FUNCTION VolumeLight gridLight(VolumeView volume, uint first, vec3 place) {
+// Between the values of a lattice, which come after `first` others: `at` from 0 to size - 1, linear along
+// each axis. `corners` is 8, or 0 for no light: a software device passes over a loop that none of its threads
+// enter, but not over a branch.
+SHARED_FUNCTION VolumeLight latticeLight(VolumeView volume, uint first, uvec3 size, vec3 at, uint corners) {
   VolumeLight light = noLight();
-  vec3 end = vec3(volume.size);
-  bool isOutside =
-      min(min(place.x, place.y), place.z) < 0.0f || place.x > end.x || place.y > end.y || place.z > end.z;
-  // A software device passes over a loop that none of its threads enter, but not over a branch.
-  uint corners = isOutside ? 0u : 8u;
-  vec3 clamped = clamp(place - 0.5f, vec3(0.0f), end - 1.0f);
-  uvec3 corner = min(uvec3(clamped), max(volume.size, uvec3(2u)) - 2u);
-  uvec3 next = min(corner + 1u, volume.size - 1u);
-  vec3 part = clamped - vec3(corner);
+  uvec3 corner = min(uvec3(at), max(size, uvec3(2u)) - 2u);
+  uvec3 next = min(corner + 1u, size - 1u);
+  vec3 part = at - vec3(corner);
   for (uint i = 0u; i < corners; ++i) {
     uvec3 bit = uvec3(i & 1u, (i >> 1u) & 1u, i >> 2u);
     uvec3 cell = corner + bit * (next - corner);
     vec3 weights = mix(1.0f - part, part, vec3(bit));
-    addCell(volume, first + (cell.z * volume.size.y + cell.y) * volume.size.x + cell.x,
-            weights.x * weights.y * weights.z, light);
+    addCell(volume, first + (cell.z * size.y + cell.y) * size.x + cell.x, weights.x * weights.y * weights.z,
+            light);
   }
   return light;
+}
+
+SHARED_FUNCTION bool isBetween(vec3 place, vec3 end) {
+  return min(min(place.x, place.y), place.z) >= 0.0f && place.x <= end.x && place.y <= end.y &&
+         place.z <= end.z;
+}
+
+// `place` in cells from the grid's corner; nothing beyond the grid. Its cells come after `first` others.
+SHARED_FUNCTION VolumeLight gridLight(VolumeView volume, uint first, vec3 place) {
+  vec3 end = vec3(volume.size);
+  return latticeLight(volume, first, volume.size, clamp(place - 0.5f, vec3(0.0f), end - 1.0f),
+                      isBetween(place, end) ? 8u : 0u);
+}
+
+// `place` as in the finest grid. A volume's size is in bricks; it begins with a word for each of them: where
+// its values begin and, in the two lowest bits, how often it is halved along each side.
+SHARED_FUNCTION VolumeLight brickLight(VolumeView volume, vec3 place) {
+  vec3 end = vec3(volume.size * kBrickIntervals);
+  vec3 at = clamp(place - 0.5f, vec3(0.0f), end);
+  uvec3 brick = min(uvec3(at) / kBrickIntervals, volume.size - 1u);
+  uint word = volumeWord(volume, (brick.z * volume.size.y + brick.y) * volume.size.x + brick.x);
+  uint intervals = 1u << (word & 3u);
+  vec3 within = (at - vec3(brick * kBrickIntervals)) * (float(intervals) / float(kBrickIntervals));
+  return latticeLight(volume, word >> 2u, uvec3(intervals + 1u), within,
+                      word != kDarkBrick && isBetween(place, end + 1.0f) ? 8u : 0u);
 }
 
 // Where a place, in regions' radii from the centre, lies among the shells: across them, as cells of a
@@ -102,6 +129,7 @@ SHARED_FUNCTION vec3 placeInShells(VolumeView volume, vec3 place) {
 }
 
 SHARED_FUNCTION VolumeLight volumeLight(VolumeView volume, uint representation, vec3 place) {
+  if (representation == kRepresentationMultiResolution) return brickLight(volume, place);
   if (representation != kRepresentationShells) return gridLight(volume, 0u, place);
   VolumeLight light = gridLight(volume, kShellWords / kWordsOfCell, placeInShells(volume, place));
   light.vector /= max(dot(place, place), kLeastShellSquare);

@@ -21,6 +21,8 @@ struct VolumeSettings {
   uint32_t radius = 3;                            // of the region, bounding radii
   uint32_t photons = 200;                         // thousands, for each light direction
   uint32_t paths = 0;                             // Paths
+  uint32_t error = 0;  // of multi-resolution bricks, thousandths of the light; 0 for others
+  uint32_t order = 0;  // of spherical harmonics; 0 for others
   bool operator==(const VolumeSettings&) const = default;
 };
 
@@ -69,15 +71,25 @@ class IrradianceVolume {
   // m in the caster's own space: where the light kept ends.
   float regionRadius() const { return sphere_.radius * float(key_.settings.radius); }
 
+  // How many are kept: one for each light direction, or for each spherical harmonic.
+  uint32_t sampleCount() const { return uint32_t(samples_.size()); }
+  // From the caster's own space to the frame of a light sample.
+  mat3 toFrame(const SampleShare& share) const;
+  // Of spherical harmonics: a grid, in the caster's own space, for light whose coefficients are `light`.
+  std::vector<uint32_t> resolve(std::span<const float> light);
+
   // InputError where a file was given that does not hold it. `makeSample` does not keep it in memory.
   const SampleView& sample(uint32_t index);
-  SampleView makeSample(uint32_t index) const;
+  SampleView makeSample(uint32_t index);
 
   // Lux by channel at a point of the caster's own space, on the side that the unit vector `normal` points to,
   // for light of 1 lux that travels along the unit vector `direction`: what the device computes.
   vec3 illuminance(vec3 point, vec3 normal, vec3 direction, LightInterpolation interpolation);
 
  private:
+  void makeLayers();
+  VolumeLight resolvedLight(vec3 place, vec3 direction);
+
   VolumeKey key_;
   std::optional<Material> material_;
   std::unique_ptr<PhotonTracer> tracer_;  // none where a file was given
@@ -86,6 +98,9 @@ class IrradianceVolume {
   LightSamples lightSamples_;
   std::filesystem::path cacheFolder_;
   std::vector<std::optional<SampleView>> samples_;
+  std::unique_ptr<IrradianceVolume> base_;  // what spherical harmonics are made of
+  vec3 resolvedDirection_{0};               // of the last illuminance by spherical harmonics
+  std::vector<uint32_t> resolvedWords_;
 };
 
 }  // namespace nephroid

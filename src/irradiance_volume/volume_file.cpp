@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/mapped_file.h"
+#include "irradiance_volume/harmonics.h"
 
 namespace nephroid {
 namespace {
@@ -47,7 +48,7 @@ struct FileHeader {
   uint64_t bodyHash;
   uint64_t headerHash;  // of all before it
 };
-static_assert(sizeof(FileHeader) == 112 && offsetof(FileHeader, headerHash) == 104);
+static_assert(sizeof(FileHeader) == 120 && offsetof(FileHeader, headerHash) == 112);
 static_assert(sizeof(SampleLayout) == 32);
 
 uint64_t hashOf(const FileHeader& header) {
@@ -133,7 +134,7 @@ void checkHeader(const fs::path& file, const FileHeader& header, std::size_t ind
     reject(file, "has format version " + std::to_string(header.version) + ", this program reads version " +
                      std::to_string(kVersion) + "; bake it again");
   if (header.headerHash != hashOf(header) || header.index != index || header.axis > 3 ||
-      header.settings.lightLevel > kMostLightLevels)
+      header.settings.lightLevel > kMostLightLevels || header.settings.order > kMostHarmonicOrder)
     reject(file, "is damaged: a header's checksum does not fit; bake it again");
 }
 
@@ -208,11 +209,15 @@ std::vector<FileVolume> readVolumes(const fs::path& file) {
                        std::to_string(wants) + "; bake it again or give --" + flag + " " +
                        std::to_string(has));
   };
+  if (have.representation != want.representation || have.paths != want.paths)
+    reject(file, "was baked with another --representation or --paths; bake it again or give the same");
   compare("volume-kilobytes", have.kilobytes, want.kilobytes);
   compare("light-level", have.lightLevel, want.lightLevel);
   compare("volume-radius", have.radius, want.radius);
   compare("volume-photons", have.photons, want.photons);
-  reject(file, "was baked with another --representation or --paths; bake it again or give the same");
+  compare("harmonic-order", have.order, want.order);
+  compare("volume-error", have.error, want.error);
+  reject(file, "was baked with other settings; bake it again");
 }
 
 fs::path cacheFile(const fs::path& folder, const VolumeKey& key, uint32_t index) {
@@ -233,7 +238,7 @@ void writeVolumes(std::span<IrradianceVolume* const> volumes, SampleRange range,
                   Progress& progress) {
   uint64_t total = 0;
   for (IrradianceVolume* volume : volumes) {
-    const auto all = uint32_t(volume->lightSamples().directions().size());
+    const auto all = volume->sampleCount();
     if (range.first >= all)
       throw InputError("--light-range: a caster has the light samples 0:" + std::to_string(all) + " alone");
     total += std::min(range.last, all) - range.first;
@@ -247,7 +252,7 @@ void writeVolumes(std::span<IrradianceVolume* const> volumes, SampleRange range,
     header.index = uint32_t(i);
     header.volumes = uint32_t(volumes.size());
     header.firstSample = range.first;
-    header.allSamples = uint32_t(volume.lightSamples().directions().size());
+    header.allSamples = volume.sampleCount();
     VolumeWriter writer(stream, header);
     for (uint32_t s = range.first; s < std::min(range.last, header.allSamples); ++s) {
       writer.add(volume.makeSample(s));

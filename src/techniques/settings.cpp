@@ -1,5 +1,7 @@
 #include "techniques/settings.h"
 
+#include "irradiance_volume/harmonics.h"
+
 namespace nephroid {
 
 std::span<const SettingField> settingFields() {
@@ -28,6 +30,12 @@ std::span<const SettingField> settingFields() {
        &Settings::volumeRadius, 2, 64, nullptr, true},
       {"volume-photons", "Thousands of photons for each light direction of an irradiance volume",
        &Settings::volumePhotons, 1, 100000, nullptr, true},
+      {"harmonic-order", "Order of the spherical harmonics of an irradiance volume kept so",
+       &Settings::harmonicOrder, 1, kMostHarmonicOrder, nullptr, true},
+      {"volume-error",
+       "How far, in thousandths of the light on a caster, the bricks of a multi-resolution irradiance volume "
+       "may be off the finest grid, which --volume-kilobytes gives the size of",
+       &Settings::volumeError, 0, 1000, nullptr, true},
   };
   return kFields;
 }

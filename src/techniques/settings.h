@@ -36,8 +36,9 @@ inline constexpr std::array<const char*, 2> kCosineNames{"exact", "still-water"}
 inline constexpr std::array<const char*, 3> kLightInterpolationNames{"nearest", "barycentric", "rotated"};
 
 // How an irradiance volume is kept; as kRepresentation... of irradiance_volume/lookup.h.
-enum class Representation { grid, shells };
-inline constexpr std::array<const char*, 2> kRepresentationNames{"grid", "shells"};
+enum class Representation { grid, shells, multiResolution, harmonics };
+inline constexpr std::array<const char*, 4> kRepresentationNames{"grid", "shells", "multi-resolution",
+                                                                 "harmonics"};
 
 struct TechniqueSettings {
   std::string technique = "automatic";  // a name of the registry
@@ -58,6 +59,8 @@ struct TechniqueSettings {
   uint32_t lightLevel = 3;         // times the icosahedron of light directions is cut finer
   uint32_t volumeRadius = 3;       // bounding radii
   uint32_t volumePhotons = 200;    // thousands, for each light direction
+  uint32_t harmonicOrder = 5;      // of spherical harmonics over light directions
+  uint32_t volumeError = 20;       // thousandths of the light on a caster; multi-resolution alone
 };
 
 inline const char* nameOf(Source source) {

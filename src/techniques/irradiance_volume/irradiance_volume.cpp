@@ -6,6 +6,7 @@
 #include "core/cache_folder.h"
 #include "gpu/program.h"
 #include "gpu/transfer.h"
+#include "irradiance_volume/harmonics.h"
 #include "irradiance_volume/volume_file.h"
 #include "scene/light_intensity.h"
 #include "shaders/volume_frag.h"
@@ -28,12 +29,10 @@ VolumeSettings volumeSettings(const TechniqueSettings& settings) {
   volume.lightLevel = settings.lightLevel;
   volume.radius = settings.volumeRadius;
   volume.photons = settings.volumePhotons;
+  if (settings.representation == Representation::harmonics) volume.order = settings.harmonicOrder;
+  if (settings.representation == Representation::multiResolution) volume.error = settings.volumeError;
   volume.paths = uint32_t(settings.paths);
   return volume;
-}
-
-mat3 linearPart(const Placement& placement) {
-  return glm::mat3_cast(placement.rotation) * placement.scale;
 }
 
 class IrradianceVolumes final : public Technique {
@@ -48,6 +47,11 @@ class IrradianceVolumes final : public Technique {
  private:
   // For light of `lux` on the caster, that travels along the unit vector `direction`.
   void addShares(const Object& object, IrradianceVolume& volume, vec3 direction, vec3 lux);
+  // The same for all points of one light at once.
+  void addResolved(const Object& object, IrradianceVolume& volume, std::span<const Emitter> emitters,
+                   const ShapedLight& light);
+  void addShare(const Object& object, const IrradianceVolume& volume, const SampleLayout& layout,
+                const mat3& toFrame, vec3 lux, VkDeviceAddress words);
   VkDeviceAddress onDevice(IrradianceVolume& volume, uint32_t sample);
 
   gpu::Device& device;
@@ -57,7 +61,9 @@ class IrradianceVolumes final : public Technique {
   SceneVolumes volumes;
   gpu::Program program;
   std::map<std::pair<const IrradianceVolume*, uint32_t>, gpu::Buffer> uploaded;
-  std::vector<VolumeConstants> shares;  // of the frame being made
+  // Of the frame being made.
+  std::vector<VolumeConstants> shares;
+  std::vector<gpu::Buffer> resolved;
 };
 
 IrradianceVolumes::IrradianceVolumes(const TechniqueContext& context)
@@ -81,44 +87,83 @@ VkDeviceAddress IrradianceVolumes::onDevice(IrradianceVolume& volume, uint32_t s
   return buffer.address();
 }
 
-void IrradianceVolumes::addShares(const Object& object, IrradianceVolume& volume, vec3 direction, vec3 lux) {
+void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& volume,
+                                 const SampleLayout& layout, const mat3& toFrame, vec3 lux,
+                                 VkDeviceAddress words) {
+  if (layout.words == 0 || lux == vec3(0)) return;
   const Placement& placement = object.placement;
   const vec3 centre = placement.point(volume.sphere().centre);
-  const float radius = volume.sphere().radius * placement.scale;
-  const vec3 inOwnSpace = placement.inverseDirection(direction);
-  for (const SampleShare& share : volume.lightSamples().around(inOwnSpace, settings.lightInterpolation)) {
-    const SampleView& sample = volume.sample(share.sample);
-    const mat3 frame = sampleFrame(volume.lightSamples().directions()[share.sample]);
-    // From the world, metres, to the sample's frame, bounding radii.
-    const mat3 turned = glm::transpose(frame) * share.toSample * glm::transpose(linearPart(placement)) /
-                        (placement.scale * radius);
-    const mat3 linear = sample.layout.placesPerUnit * turned;
-    const vec3 offset = -(linear * centre) - sample.layout.placesPerUnit * sample.layout.corner;
-    VolumeConstants constants{};
-    for (int row = 0; row < 3; ++row)
-      constants.toPlaces[row] = vec4(linear[0][row], linear[1][row], linear[2][row], offset[row]);
-    constants.centre = centre;
-    constants.inverseRadius = 1 / (placement.scale * volume.regionRadius());
-    constants.lux = share.weight * lux;
-    constants.size = sample.layout.size;
-    constants.words = onDevice(volume, share.sample);
-    if (sample.layout.words > 0 && constants.lux != vec3(0)) shares.push_back(constants);
+  // From the world, metres, to the sample's frame, bounding radii; and on to places.
+  const float placesPerMetre = layout.placesPerUnit / (placement.scale * volume.sphere().radius);
+  const mat3 linear = placesPerMetre * (toFrame * glm::transpose(glm::mat3_cast(placement.rotation)));
+  const vec3 offset = -(linear * centre) - layout.placesPerUnit * layout.corner;
+  VolumeConstants constants{};
+  for (int row = 0; row < 3; ++row)
+    constants.toPlaces[row] = vec4(linear[0][row], linear[1][row], linear[2][row], offset[row]);
+  constants.centre = centre;
+  constants.inverseRadius = 1 / (placement.scale * volume.regionRadius());
+  constants.lux = lux;
+  constants.size = layout.size;
+  constants.words = words;
+  shares.push_back(constants);
+}
+
+void IrradianceVolumes::addShares(const Object& object, IrradianceVolume& volume, vec3 direction, vec3 lux) {
+  const vec3 inOwnSpace = object.placement.inverseDirection(direction);
+  for (const SampleShare& share : volume.lightSamples().around(inOwnSpace, settings.lightInterpolation))
+    addShare(object, volume, volume.sample(share.sample).layout, volume.toFrame(share), share.weight * lux,
+             onDevice(volume, share.sample));
+}
+
+void IrradianceVolumes::addResolved(const Object& object, IrradianceVolume& volume,
+                                    std::span<const Emitter> emitters, const ShapedLight& light) {
+  const vec3 centre = object.placement.point(volume.sphere().centre);
+  const uint32_t order = volume.key().settings.order;
+  std::vector<float> coefficients(std::size_t{order + 1} * (order + 1), 0);
+  vec3 lux(0);
+  float sum = 0;
+  for (const Emitter& emitter : emitters) {
+    const vec3 part = illuminance(light, emitter, centre);
+    const float weight = part.x + part.y + part.z;
+    const std::vector<float> harmonics =
+        sphericalHarmonics(order, object.placement.inverseDirection(emitterDirection(emitter, centre)));
+    for (std::size_t j = 0; j < coefficients.size(); ++j) coefficients[j] += weight * harmonics[j];
+    lux += part;
+    sum += weight;
   }
+  if (sum <= 0) return;
+  for (float& coefficient : coefficients) coefficient /= sum;
+  const std::vector<uint32_t> words = volume.resolve(coefficients);
+  gpu::Buffer buffer = gpu::createBuffer(device, "resolved irradiance volume",
+                                         words.size() * sizeof(uint32_t), gpu::MemoryKind::upload);
+  buffer.write(words);
+  addShare(object, volume, volume.sample(0).layout, mat3(1), lux, buffer.address());
+  resolved.push_back(std::move(buffer));
 }
 
 void IrradianceVolumes::update(GpuScene&) {
   const Scene& now = transport.scene();
   shares.clear();
+  resolved.clear();
   const std::vector<ShapedLight> lights = shapedLights(now);
-  for (const Emitter& emitter : emittersOf(now))
+  for (uint32_t l = 0; l < lights.size(); ++l) {
+    const std::vector<Emitter> emitters = emittersOf(now.lights[l], l);
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
       if (!volumes.ofObject[i]) continue;
-      const vec3 centre = now.objects[i].placement.point(volumes.ofObject[i]->sphere().centre);
-      addShares(now.objects[i], *volumes.ofObject[i], emitterDirection(emitter, centre),
-                illuminance(lights[emitter.light], emitter, centre));
+      IrradianceVolume& volume = *volumes.ofObject[i];
+      if (settings.representation == Representation::harmonics) {
+        addResolved(now.objects[i], volume, emitters, lights[l]);
+        continue;
+      }
+      const vec3 centre = now.objects[i].placement.point(volume.sphere().centre);
+      for (const Emitter& emitter : emitters)
+        addShares(now.objects[i], volume, emitterDirection(emitter, centre),
+                  illuminance(lights[l], emitter, centre));
     }
+  }
   uint64_t bytes = 0;
   for (const auto& [sample, buffer] : uploaded) bytes += buffer.size();
+  for (const gpu::Buffer& buffer : resolved) bytes += buffer.size();
   stats.counts = {{"lookups", shares.size()}, {"light_samples", uploaded.size()}, {"volume_bytes", bytes}};
 }
 
