@@ -104,7 +104,7 @@ TEST_F(IrradianceVolumeGpuTest, ShowsWhatTheProcessorLooksUp) {
     const Scene scene = sceneWith(item.mesh, item.type);
     for (const auto representation : {Representation::grid, Representation::shells,
                                       Representation::multiResolution, Representation::harmonics})
-      for (const auto interpolation : {LightInterpolation::nearest, LightInterpolation::rotated}) {
+      for (const auto interpolation : {LightInterpolation::nearest, LightInterpolation::flow}) {
         TechniqueSettings settings = quickSettings();
         settings.representation = representation;
         settings.lightInterpolation = interpolation;

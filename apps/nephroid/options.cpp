@@ -198,7 +198,7 @@ void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool i
             "still water would have it");
   addChoice(command, "--light-interpolation", settings.lightInterpolation, kLightInterpolationNames,
             "Between the light directions of an irradiance volume: the nearest, the three around by their "
-            "weights, or these turned to the light");
+            "weights, these turned to the light, or moved on from there as the caster moves light");
   addRepresentation(command, settings);
   command
       .add_option(

@@ -65,12 +65,38 @@ vec3 vectorIn(const Lattice& lattice, uvec3 brick, uint32_t intervals, uvec3 pla
   return sum;
 }
 
+// What a brick's light adds up to, between its values.
+vec3 sumIn(const Lattice& lattice, uvec3 brick, uint32_t intervals) {
+  vec3 sum(0);
+  for (uint32_t z = 0; z <= intervals; ++z)
+    for (uint32_t y = 0; y <= intervals; ++y)
+      for (uint32_t x = 0; x <= intervals; ++x) {
+        float weight = 1;
+        for (const uint32_t at : {x, y, z}) weight *= at == 0 || at == intervals ? 0.5f : 1.0f;
+        sum += weight * lattice.at(brick * intervals + uvec3(x, y, z)).vector;
+      }
+  return sum / std::pow(float(intervals), 3.0f);
+}
+
+// What a coarse brick's values are to be multiplied by, by component, to hold as much light as the finest:
+// what it took from bricks around it, they may have kept too.
+vec3 keepingLight(const std::array<Lattice, kLevels>& lattices, uvec3 brick, uint32_t level) {
+  constexpr float kMost = 4;
+  const vec3 fine = sumIn(lattices[kLevels - 1], brick, kBrickIntervals);
+  const vec3 coarse = sumIn(lattices[level], brick, 1u << level);
+  vec3 scale(1);
+  for (int axis = 0; axis < 3; ++axis)
+    if (fine[axis] * coarse[axis] > 0) scale[axis] = std::clamp(fine[axis] / coarse[axis], 1 / kMost, kMost);
+  return scale;
+}
+
 float errorOf(const std::array<Lattice, kLevels>& lattices, uvec3 brick, uint32_t level) {
+  const vec3 scale = keepingLight(lattices, brick, level);
   double sum = 0;
   for (uint32_t z = 0; z <= kBrickIntervals; ++z)
     for (uint32_t y = 0; y <= kBrickIntervals; ++y)
       for (uint32_t x = 0; x <= kBrickIntervals; ++x) {
-        const vec3 difference = vectorIn(lattices[level], brick, 1u << level, {x, y, z}) -
+        const vec3 difference = scale * vectorIn(lattices[level], brick, 1u << level, {x, y, z}) -
                                 lattices[kLevels - 1].at(brick * kBrickIntervals + uvec3(x, y, z)).vector;
         sum += double(dot(difference, difference));
       }
@@ -83,12 +109,16 @@ bool isDark(const Lattice& finest, uvec3 brick) {
   return true;
 }
 
-void appendBrick(const Lattice& lattice, uvec3 brick, uint32_t intervals, std::vector<uint32_t>& words) {
+void appendBrick(const std::array<Lattice, kLevels>& lattices, uvec3 brick, uint32_t level,
+                 std::vector<uint32_t>& words) {
+  const uint32_t intervals = 1u << level;
+  const vec3 scale = keepingLight(lattices, brick, level);
   for (uint32_t z = 0; z <= intervals; ++z)
     for (uint32_t y = 0; y <= intervals; ++y)
       for (uint32_t x = 0; x <= intervals; ++x) {
         words.resize(words.size() + kWordsOfCell);
-        packCell(lattice.at(brick * intervals + uvec3(x, y, z)), &words[words.size() - kWordsOfCell]);
+        const CellSum& value = lattices[level].at(brick * intervals + uvec3(x, y, z));
+        packCell({scale * value.vector, value.color}, &words[words.size() - kWordsOfCell]);
       }
 }
 
@@ -117,7 +147,7 @@ VolumeSample brickSample(std::span<const PhotonPath> paths, std::size_t finestBy
         uint32_t level = 0;
         while (level < kLevels - 1 && errorOf(lattices, brick, level) > bound) ++level;
         sample.words[index] = uint32_t(sample.words.size() / kWordsOfCell) << 2 | level;
-        appendBrick(lattices[level], brick, 1u << level, sample.words);
+        appendBrick(lattices, brick, level, sample.words);
       }
   sample.layout = {finest.corner, finest.placesPerUnit, bricks, uint32_t(sample.words.size())};
   return sample;

@@ -51,6 +51,22 @@ std::vector<Direction> directionsOf(IrradianceVolume& base, uint32_t order) {
   return directions;
 }
 
+// Over the cube of the side `side` around a place, of what the base holds for a direction.
+VolumeLight meanAround(const Direction& direction, vec3 place, float side) {
+  constexpr uint32_t kPoints = 8;
+  VolumeLight light = noLight();
+  for (uint32_t i = 0; i < kPoints; ++i) {
+    const vec3 point = place + side * (0.5f * vec3(uvec3(i & 1u, (i >> 1) & 1u, i >> 2)) - 0.25f);
+    for (const Lookup& lookup : direction.lookups) {
+      const VolumeLight part =
+          lightAt(lookup.view.layout, lookup.view.words, kRepresentationGrid, lookup.toFrame * point);
+      light.vector += (lookup.weight / kPoints) * (part.vector * lookup.toFrame);
+      light.color += (lookup.weight / kPoints) * part.color;
+    }
+  }
+  return light;
+}
+
 }  // namespace
 
 std::vector<float> sphericalHarmonics(uint32_t order, vec3 direction) {
@@ -96,13 +112,7 @@ std::vector<VolumeSample> harmonicLayers(IrradianceVolume& base, uint32_t order,
     std::vector<vec3> sums(count, vec3(0));
     vec3 color(0);
     for (const Direction& direction : directions) {
-      VolumeLight light = noLight();
-      for (const Lookup& lookup : direction.lookups) {
-        const VolumeLight part =
-            lightAt(lookup.view.layout, lookup.view.words, kRepresentationGrid, lookup.toFrame * place);
-        light.vector += lookup.weight * (part.vector * lookup.toFrame);
-        light.color += lookup.weight * part.color;
-      }
+      const VolumeLight light = meanAround(direction, place, 1 / layout.placesPerUnit);
       if (light.vector == vec3(0)) continue;
       color += light.color;
       for (std::size_t j = 0; j < count; ++j) sums[j] += direction.harmonics[j] * light.vector;

@@ -61,12 +61,12 @@ mat3 turnBetween(vec3 from, vec3 to) {
   return glm::mat3_cast(glm::normalize(quat(1 + cosine, axis.x, axis.y, axis.z)));
 }
 
-LightSamples::LightSamples(const Symmetry& symmetry, uint32_t level) : symmetry_(symmetry) {
+LightSamples::LightSamples(const Symmetry& symmetry, uint32_t level)
+    : symmetry_(symmetry), halfStep_(0.5f * kIcosahedronEdge / float(1u << level)) {
   if (symmetry.isBall) {
     directions_ = {vec3(0, -1, 0)};
   } else if (symmetry.axis < 3) {
-    const float step = kIcosahedronEdge / float(1u << level);
-    const auto steps = uint32_t(std::ceil(circleLength(symmetry) / step));
+    const auto steps = uint32_t(std::ceil(circleLength(symmetry) / (2 * halfStep_)));
     for (uint32_t i = 0; i <= steps; ++i)
       directions_.push_back(onCircle(symmetry.axis, circleLength(symmetry) * float(i) / float(steps)));
   } else {
@@ -122,9 +122,13 @@ std::vector<SampleShare> LightSamples::around(vec3 direction, LightInterpolation
   if (symmetry_.isBall) return {{0, 1, turnBetween(direction, directions_[0])}};
   std::vector<SampleShare> shares = symmetry_.axis < 3 ? aroundCircle(direction) : aroundSphere(direction);
   if (interpolation == LightInterpolation::nearest) keepNearest(shares);
-  if (interpolation == LightInterpolation::rotated)
-    for (SampleShare& share : shares)
-      share.toSample = turnBetween(share.toSample * direction, directions_[share.sample]) * share.toSample;
+  if (interpolation == LightInterpolation::rotated || interpolation == LightInterpolation::flow)
+    for (SampleShare& share : shares) {
+      const vec3 light = share.toSample * direction;
+      if (interpolation == LightInterpolation::flow)
+        share.aside = vec2(glm::transpose(sampleFrame(directions_[share.sample])) * light);
+      share.toSample = turnBetween(light, directions_[share.sample]) * share.toSample;
+    }
   std::erase_if(shares, [](const SampleShare& share) { return share.weight <= 0; });
   return shares;
 }

@@ -11,14 +11,15 @@ namespace nephroid {
 
 // Between light samples. nearest: the one whose direction is nearest. barycentric: the three around it by
 // their weights. rotated: so too, each turned from its direction to the light's (Wyman 2004, section 5.2,
-// steps A to G).
-enum class LightInterpolation { nearest, barycentric, rotated };
+// steps A to G). flow: so too, and moved by what was learnt of the caster (flow.h).
+enum class LightInterpolation { nearest, barycentric, rotated, flow };
 
 // A share of one sample.
 struct SampleShare {
   uint32_t sample = 0;
   float weight = 1;
   mat3 toSample{1};  // from the caster's own space, without the sample's frame; turns, and may mirror
+  vec2 aside{0};     // of flow: across the sample's frame, how far the light is off its direction
 };
 
 class LightSamples {
@@ -28,6 +29,8 @@ class LightSamples {
   LightSamples(const Symmetry& symmetry, uint32_t level);
 
   const std::vector<vec3>& directions() const { return directions_; }  // unit, the way the light travels
+  // rad, that light is off the nearest direction at most, or nearly so.
+  float halfStep() const { return halfStep_; }
   // For light that travels along the unit vector `direction`, in the caster's own space.
   std::vector<SampleShare> around(vec3 direction, LightInterpolation interpolation) const;
 
@@ -36,6 +39,7 @@ class LightSamples {
   std::vector<SampleShare> aroundSphere(vec3 direction) const;
 
   Symmetry symmetry_;
+  float halfStep_;
   std::vector<vec3> directions_;
   std::unique_ptr<LightSphere> sphere_;  // of the third kind alone
   std::vector<uint32_t> sampleOf_;       // of each of its vertices

@@ -1,7 +1,8 @@
 // Looking up the caustic light stored around a caster, once for C++ and GLSL.
 //
-// A shader defines `struct VolumeView` with `uvec3 size` and `uint volumeWord(VolumeView volume, uint index)`
-// and includes this.
+// A shader defines `struct VolumeView` with `uvec3 size` and `uint volumeWord(VolumeView volume, uint
+// index)`, `struct FlowView` with `vec3 origin`, `vec3 scale` and `uint side`, and `vec3 flowMove(FlowView
+// flow, uint index)`, and includes this.
 #ifndef NEPHROID_IRRADIANCE_VOLUME_LOOKUP_H
 #define NEPHROID_IRRADIANCE_VOLUME_LOOKUP_H
 
@@ -17,6 +18,15 @@ struct VolumeView {
 };
 inline uint volumeWord(const VolumeView& volume, uint index) {
   return volume.words[index];
+}
+struct FlowView {
+  vec3 origin;
+  vec3 scale;
+  uint side;
+  const vec3* moves;
+};
+inline vec3 flowMove(const FlowView& flow, uint index) {
+  return flow.moves[index];
 }
 using glm::uintBitsToFloat;
 using glm::unpackHalf2x16;
@@ -136,10 +146,70 @@ SHARED_FUNCTION VolumeLight volumeLight(VolumeView volume, uint representation, 
   return light;
 }
 
-// What is left of light toward the border of the region; `distance` in its radii from the centre.
-SHARED_FUNCTION float fadeAt(float distance) {
-  float part = clamp(10.0f * (1.0f - distance), 0.0f, 1.0f);
-  return part * part * (3.0f - 2.0f * part);
+// Where the light of a place comes from when it flows: how displaced, and how stretched around there.
+struct FlowedPlace {
+  vec3 place;
+  vec3 stretch[3];  // columns of the derivative of `place`
+};
+
+// By linear interpolation on a lattice of flow.side^3 displacements, which lie at whole numbers of
+// (place - flow.origin) * flow.scale; beyond it as at its border. No displacement where flow.side is 0.
+SHARED_FUNCTION FlowedPlace flowedPlace(FlowView flow, vec3 place) {
+  FlowedPlace flowed;
+  vec3 end = vec3(float(max(flow.side, 2u) - 1u));
+  vec3 at = (place - flow.origin) * flow.scale;
+  vec3 inside = clamp(at, vec3(0.0f), end);
+  uvec3 low = min(uvec3(inside), uvec3(end) - 1u);
+  vec3 part = inside - vec3(low);
+  vec3 move = vec3(0.0f), alongX = vec3(0.0f), alongY = vec3(0.0f), alongZ = vec3(0.0f);
+  uint corners = flow.side > 0u ? 8u : 0u;
+  for (uint i = 0u; i < corners; ++i) {
+    uvec3 bit = uvec3(i & 1u, (i >> 1u) & 1u, i >> 2u);
+    uvec3 node = low + bit;
+    vec3 value = flowMove(flow, (node.z * flow.side + node.y) * flow.side + node.x);
+    vec3 weights = mix(1.0f - part, part, vec3(bit));
+    vec3 sides = 2.0f * vec3(bit) - 1.0f;
+    move += (weights.x * weights.y * weights.z) * value;
+    alongX += (sides.x * weights.y * weights.z) * value;
+    alongY += (weights.x * sides.y * weights.z) * value;
+    alongZ += (weights.x * weights.y * sides.z) * value;
+  }
+  flowed.place = place + move;
+  flowed.stretch[0] = vec3(1.0f, 0.0f, 0.0f) + (at.x == inside.x ? flow.scale.x : 0.0f) * alongX;
+  flowed.stretch[1] = vec3(0.0f, 1.0f, 0.0f) + (at.y == inside.y ? flow.scale.y : 0.0f) * alongY;
+  flowed.stretch[2] = vec3(0.0f, 0.0f, 1.0f) + (at.z == inside.z ? flow.scale.z : 0.0f) * alongZ;
+  return flowed;
+}
+
+// The vector of light that flowed from there: what crosses any surface is what crosses its image (the Piola
+// transform), so that flux is kept however light is displaced.
+SHARED_FUNCTION vec3 carried(FlowedPlace from, vec3 vector) {
+  return vec3(dot(cross(from.stretch[1], from.stretch[2]), vector),
+              dot(cross(from.stretch[2], from.stretch[0]), vector),
+              dot(cross(from.stretch[0], from.stretch[1]), vector));
+}
+
+SHARED_FUNCTION VolumeLight flowedLight(VolumeView volume, uint representation, FlowView flow, vec3 place) {
+  FlowedPlace from = flowedPlace(flow, place);
+  VolumeLight light = volumeLight(volume, representation, from.place);
+  light.vector = carried(from, light.vector);
+  return light;
+}
+
+// Light is kept so far from the region's centre, in its radii: short of the border, where cells are cut.
+SHARED_CONSTANT float kRegionEdge = 0.93f;
+
+// Beyond the region light goes on as if it all spread from `source`: the place in the region, in its radii
+// from the centre, that the light of `place` came by, and how much of it is left.
+SHARED_FUNCTION vec4 placeInRegion(vec3 place, vec3 source) {
+  if (dot(place, place) <= kRegionEdge * kRegionEdge) return vec4(place, 1.0f);
+  vec3 away = place - source;
+  float a = dot(away, away);
+  float b = dot(source, away);
+  float c = dot(source, source) - kRegionEdge * kRegionEdge;
+  float square = b * b - a * c;
+  float part = square >= 0.0f && a > 0.0f ? (sqrt(square) - b) / a : 0.0f;
+  return part > 0.0f && part < 1.0f ? vec4(source + part * away, part * part) : vec4(0.0f);
 }
 
 // Lux by channel on a surface of unit normal `normal`, on the side that it points to.

@@ -13,7 +13,7 @@
 namespace nephroid {
 namespace {
 
-constexpr uint32_t kPhotonsPerBlock = 2048;
+constexpr uint32_t kPhotonsPerBlock = 1024;
 constexpr float kPi = 3.14159265f;
 constexpr float kLeastShare = 1e-4f;  // of a photon's flux that is still worth a path
 
@@ -46,9 +46,23 @@ vec3 facing(vec3 direction, const Hit& hit) {
   return dot(direction, normal) < 0 ? normal : -normal;
 }
 
+// What `find` adds for each of the photons, in their order.
+template <class Item, class Find>
+std::vector<Item> inBlocks(uint32_t photons, const Find& find) {
+  const uint32_t blocks = (photons + kPhotonsPerBlock - 1) / kPhotonsPerBlock;
+  std::vector<std::vector<Item>> ofBlock(blocks);
+  oneapi::tbb::parallel_for(uint32_t{0}, blocks, [&](uint32_t block) {
+    const uint32_t end = std::min(photons, (block + 1) * kPhotonsPerBlock);
+    for (uint32_t i = block * kPhotonsPerBlock; i < end; ++i) find(i, ofBlock[block]);
+  });
+  std::vector<Item> all;
+  for (const std::vector<Item>& part : ofBlock) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 }  // namespace
 
-PhotonTracer::PhotonTracer(const Mesh& mesh, const Material& material, Paths paths)
+CasterTracer::CasterTracer(const Mesh& mesh, const Material& material, Paths paths)
     : material_(material),
       paths_(paths),
       rays_(mesh),
@@ -57,7 +71,7 @@ PhotonTracer::PhotonTracer(const Mesh& mesh, const Material& material, Paths pat
       symmetry_(findSymmetry(rays_, sphere_)) {}
 
 // A mirror's light crosses the air between its bounces too.
-void PhotonTracer::reflect(Hit hit, vec3 direction, vec3 flux, std::vector<PhotonPath>& paths) const {
+void CasterTracer::reflect(Hit hit, vec3 direction, vec3 flux, std::vector<PhotonPath>& paths) const {
   for (uint32_t bounce = 0; bounce < kMaximumCrossings; ++bounce) {
     direction = reflectDirection(direction, facing(direction, hit));
     flux *= material_.color;
@@ -70,7 +84,7 @@ void PhotonTracer::reflect(Hit hit, vec3 direction, vec3 flux, std::vector<Photo
   }
 }
 
-void PhotonTracer::follow(const Hit& first, vec3 direction, vec3 flux, std::vector<PhotonPath>& paths) const {
+void CasterTracer::follow(const Hit& first, vec3 direction, vec3 flux, std::vector<PhotonPath>& paths) const {
   if (material_.type == MaterialType::mirror) return reflect(first, direction, flux, paths);
   const SurfacePoint entry{first.position, first.flatPosition, first.normal, first.geometricNormal,
                            first.patch};
@@ -87,33 +101,55 @@ void PhotonTracer::follow(const Hit& first, vec3 direction, vec3 flux, std::vect
     }
 }
 
-std::vector<PhotonPath> PhotonTracer::trace(vec3 lightDirection, uint32_t photons, float reach) const {
-  const mat3 frame = sampleFrame(lightDirection);
+// Of a photon from `start`, in the caster's own space; empty where it meets nothing. `hit` is where it meets
+// the caster.
+std::vector<PhotonPath> CasterTracer::send(vec3 start, const mat3& frame, vec3 flux, float reach,
+                                           Hit& hit) const {
+  std::vector<PhotonPath> paths;
+  if (!rays_.intersect({start, frame[2]}, hit)) return paths;
+  follow(hit, frame[2], flux, paths);
   const mat3 toFrame = glm::transpose(frame);
+  for (PhotonPath& path : paths) {
+    path.origin = toFrame * ((path.origin - sphere_.centre) / sphere_.radius);
+    path.direction = toFrame * path.direction;
+    path.length = std::min(path.length / sphere_.radius, lengthInside(path.origin, path.direction, reach));
+  }
+  std::erase_if(paths, [](const PhotonPath& path) { return path.length <= 0; });
+  return paths;
+}
+
+std::vector<PhotonPath> CasterTracer::trace(vec3 lightDirection, uint32_t photons, float reach) const {
+  return trace(sampleFrame(lightDirection), photons, reach);
+}
+
+std::vector<PhotonPath> CasterTracer::trace(const mat3& frame, uint32_t photons, float reach) const {
   const vec3 flux(kPi / float(photons));
-  const uint32_t blocks = (photons + kPhotonsPerBlock - 1) / kPhotonsPerBlock;
-  std::vector<std::vector<PhotonPath>> ofBlock(blocks);
-  oneapi::tbb::parallel_for(uint32_t{0}, blocks, [&](uint32_t block) {
-    const uint32_t end = std::min(photons, (block + 1) * kPhotonsPerBlock);
-    std::vector<PhotonPath> found;
-    for (uint32_t i = block * kPhotonsPerBlock; i < end; ++i) {
-      const vec3 start = frame * vec3(onDisc(i), -2.0f);
-      Hit hit;
-      if (!rays_.intersect({sphere_.centre + sphere_.radius * start, lightDirection}, hit)) continue;
-      found.clear();
-      follow(hit, lightDirection, flux, found);
-      for (PhotonPath& path : found) {
-        path.origin = toFrame * ((path.origin - sphere_.centre) / sphere_.radius);
-        path.direction = toFrame * path.direction;
-        path.length =
-            std::min(path.length / sphere_.radius, lengthInside(path.origin, path.direction, reach));
-        if (path.length > 0) ofBlock[block].push_back(path);
-      }
-    }
+  return inBlocks<PhotonPath>(photons, [&](uint32_t photon, std::vector<PhotonPath>& found) {
+    Hit hit;
+    const vec3 start = sphere_.centre + sphere_.radius * (frame * vec3(onDisc(photon), -2.0f));
+    const std::vector<PhotonPath> paths = send(start, frame, flux, reach, hit);
+    found.insert(found.end(), paths.begin(), paths.end());
   });
-  std::vector<PhotonPath> all;
-  for (const std::vector<PhotonPath>& part : ofBlock) all.insert(all.end(), part.begin(), part.end());
-  return all;
+}
+
+std::vector<PhotonPair> CasterTracer::pairs(const mat3& frame, const mat3& other, PairedBy pairedBy,
+                                            uint32_t photons, float reach) const {
+  constexpr float kSamePlace = 1e-3f;  // bounding radii
+  const vec3 flux(kPi / float(photons));
+  return inBlocks<PhotonPair>(photons, [&](uint32_t photon, std::vector<PhotonPair>& found) {
+    const vec3 start(onDisc(photon), -2.0f);
+    Hit hit, otherHit;
+    const std::vector<PhotonPath> from =
+        send(sphere_.centre + sphere_.radius * (frame * start), frame, flux, reach, hit);
+    if (from.empty()) return;
+    const vec3 otherStart = pairedBy == PairedBy::place ? sphere_.centre + sphere_.radius * (other * start)
+                                                        : hit.position - 3 * sphere_.radius * other[2];
+    const std::vector<PhotonPath> to = send(otherStart, other, flux, reach, otherHit);
+    if (to.size() != from.size()) return;
+    if (pairedBy == PairedBy::entry && length(hit.position - otherHit.position) > kSamePlace * sphere_.radius)
+      return;
+    for (std::size_t i = 0; i < from.size(); ++i) found.push_back({from[i], to[i]});
+  });
 }
 
 }  // namespace nephroid

@@ -20,21 +20,37 @@ struct PhotonPath {
   float length = 0;   // bounding radii
 };
 
+// What photons of two directions of the light have in common.
+enum class PairedBy { place, entry };  // on the disc of light; where they meet the caster
+
+// The ways of such photons, each in the frame of its light.
+struct PhotonPair {
+  PhotonPath from;
+  PhotonPath to;
+};
+
 // One caster in its own space, ready to have photons sent through it.
-class PhotonTracer {
+class CasterTracer {
  public:
   // Mesh and material must outlive this. Attenuation distances are in the mesh's own units.
-  PhotonTracer(const Mesh& mesh, const Material& material, Paths paths);
+  CasterTracer(const Mesh& mesh, const Material& material, Paths paths);
 
   // `photons` of them, evenly over the disc of the bounding sphere, for light of 1 lux along
   // `lightDirection`; those that meet nothing have no paths. Paths end `reach` bounding radii from the
   // centre. The same paths in the same order whatever the number of threads.
   std::vector<PhotonPath> trace(vec3 lightDirection, uint32_t photons, float reach) const;
+  // The same for the light's frame: its direction is frame[2].
+  std::vector<PhotonPath> trace(const mat3& frame, uint32_t photons, float reach) const;
+
+  // Of photons of the light of one frame, those that have one beside them in the light of another.
+  std::vector<PhotonPair> pairs(const mat3& frame, const mat3& other, PairedBy pairedBy, uint32_t photons,
+                                float reach) const;
 
   const BoundingSphere& sphere() const { return sphere_; }
   const Symmetry& symmetry() const { return symmetry_; }
 
  private:
+  std::vector<PhotonPath> send(vec3 start, const mat3& frame, vec3 flux, float reach, Hit& hit) const;
   void follow(const Hit& first, vec3 direction, vec3 flux, std::vector<PhotonPath>& paths) const;
   void reflect(Hit hit, vec3 direction, vec3 flux, std::vector<PhotonPath>& paths) const;
 

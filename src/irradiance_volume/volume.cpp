@@ -1,5 +1,6 @@
 #include "irradiance_volume/volume.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -30,14 +31,16 @@ uint64_t hashOf(const Material& material) {
   return hasher.value();
 }
 
-VolumeSample represent(std::span<const PhotonPath> paths, const VolumeSettings& settings) {
-  const std::size_t bytes = std::size_t{1000} * settings.kilobytes;
+VolumeSample represent(std::span<const PhotonPath> paths, const VolumeSettings& settings, std::size_t bytes) {
   if (settings.representation == kRepresentationShells)
     return shellSample(paths, float(settings.radius), bytes);
   if (settings.representation == kRepresentationMultiResolution)
     return brickSample(paths, bytes, 1e-3f * float(settings.error));
   return gridSample(paths, bytes);
 }
+
+// Finer than what is made of it.
+constexpr uint32_t kLeastKilobytesOfBase = 360;
 
 bool isHarmonic(const VolumeSettings& settings) {
   return settings.representation == kRepresentationHarmonics;
@@ -69,7 +72,7 @@ IrradianceVolume::IrradianceVolume(const Mesh& mesh, const Material& inOwnSpace,
                                    const VolumeSettings& settings, std::filesystem::path cacheFolder)
     : key_(volumeKey(mesh, inOwnSpace, settings)),
       material_(inOwnSpace),
-      tracer_(std::make_unique<PhotonTracer>(mesh, *material_, Paths(settings.paths))),
+      tracer_(std::make_unique<CasterTracer>(mesh, *material_, Paths(settings.paths))),
       symmetry_(tracer_->symmetry()),
       sphere_(tracer_->sphere()),
       lightSamples_(symmetry_, settings.lightLevel),
@@ -79,6 +82,7 @@ IrradianceVolume::IrradianceVolume(const Mesh& mesh, const Material& inOwnSpace,
   VolumeSettings ofBase = settings;
   ofBase.representation = kRepresentationGrid;
   ofBase.order = 0;
+  ofBase.kilobytes = std::max(ofBase.kilobytes, kLeastKilobytesOfBase);
   base_ = std::make_unique<IrradianceVolume>(mesh, inOwnSpace, ofBase, cacheFolder_);
 }
 
@@ -103,11 +107,32 @@ SampleView IrradianceVolume::makeSample(uint32_t index) {
     makeLayers();
     return *samples_[index];
   }
-  const std::vector<PhotonPath> paths = tracer_->trace(
-      lightSamples_.directions()[index], 1000 * key_.settings.photons, float(key_.settings.radius));
-  SampleView traced = viewOf(represent(paths, key_.settings));
+  SampleView traced = traceSample(index);
   keepSample(cacheFolder_, {key_, symmetry_, index, {traced}});
   return traced;
+}
+
+SampleView IrradianceVolume::traceSample(uint32_t index) const {
+  constexpr uint32_t kPhotonsPerTrial = 5;  // for each of those that movements are judged by
+  constexpr float kBeyondRegion = 1.07f;  // radii that light is followed to, so that the last cells are full
+  const VolumeSettings& settings = key_.settings;
+  const float reach = kBeyondRegion * float(settings.radius);
+  const uint32_t photons = 1000 * settings.photons;
+  const mat3 frame = sampleFrame(lightSamples_.directions()[index]);
+  const std::vector<PhotonPath> paths = tracer_->trace(frame, photons, reach);
+  const std::size_t bytes = std::size_t{1000} * settings.kilobytes;
+  const bool turns = !symmetry_.isBall && !paths.empty();  // a ball's light is the same from all sides
+  const uint32_t side = turns ? flowSide(bytes) : 0;
+  VolumeSample sample = represent(paths, settings, bytes - sizeof(uint32_t) * flowWordCount(side));
+  sample.layout.source = kBeyondRegion * spreadSource(paths, reach);
+  if (turns && sample.layout.words > 0) {
+    const std::vector<uint32_t> flow = traceFlow(
+        *tracer_, frame, paths, {reach, lightSamples_.halfStep(), photons / kPhotonsPerTrial, side});
+    sample.words.insert(sample.words.end(), flow.begin(), flow.end());
+    sample.layout.words = uint32_t(sample.words.size());
+    sample.layout.flowSide = side;
+  }
+  return viewOf(std::move(sample));
 }
 
 // They come of the same light samples, all at once.
@@ -130,31 +155,45 @@ std::vector<uint32_t> IrradianceVolume::resolve(std::span<const float> light) {
   return resolveHarmonics(layers, light);
 }
 
-VolumeLight IrradianceVolume::resolvedLight(vec3 place, vec3 direction) {
-  if (resolvedWords_.empty() || resolvedDirection_ != direction) {
-    resolvedWords_ = resolve(sphericalHarmonics(key_.settings.order, direction));
-    resolvedDirection_ = direction;
-  }
-  return lightAt(sample(0).layout, resolvedWords_, kRepresentationHarmonics, place);
-}
-
 const SampleView& IrradianceVolume::sample(uint32_t index) {
   if (!samples_[index]) samples_[index] = makeSample(index);
   return *samples_[index];
 }
 
+LightFlow IrradianceVolume::flow(const SampleShare& share) {
+  const SampleView& view = sample(share.sample);
+  return flowFor(view.layout, view.words, share.aside);
+}
+
+void IrradianceVolume::prepare(vec3 direction, LightInterpolation interpolation) {
+  if (!prepared_.parts.empty() && prepared_.direction == direction &&
+      prepared_.interpolation == interpolation)
+    return;
+  prepared_ = {direction, interpolation, {}};
+  if (isHarmonic(key_.settings)) {
+    const SampleLayout& layout = sample(0).layout;
+    Part& part = prepared_.parts.emplace_back();
+    part.view = viewOf({layout, resolve(sphericalHarmonics(key_.settings.order, direction))});
+    return;
+  }
+  for (const SampleShare& share : lightSamples_.around(direction, interpolation))
+    prepared_.parts.push_back({sample(share.sample), toFrame(share), share.weight, flow(share)});
+}
+
 vec3 IrradianceVolume::illuminance(vec3 point, vec3 normal, vec3 direction,
                                    LightInterpolation interpolation) {
+  prepare(direction, interpolation);
+  const auto radius = float(key_.settings.radius);
   const vec3 place = (point - sphere_.centre) / sphere_.radius;
-  const float fade = fadeAt(length(place) / float(key_.settings.radius));
-  if (isHarmonic(key_.settings)) return fade * surfaceIlluminance(resolvedLight(place, direction), normal);
   vec3 sum(0);
-  for (const SampleShare& share : lightSamples_.around(direction, interpolation)) {
-    const mat3 toSampleFrame = toFrame(share);
-    const SampleView& view = sample(share.sample);
+  for (const Part& part : prepared_.parts) {
+    const SampleLayout& layout = part.view.layout;
+    if (layout.words == 0) continue;
+    const vec4 inRegion = placeInRegion(part.toFrame * place / radius, layout.source);
+    if (inRegion.w == 0) continue;
     const VolumeLight light =
-        lightAt(view.layout, view.words, key_.settings.representation, toSampleFrame * place);
-    sum += fade * share.weight * surfaceIlluminance(light, toSampleFrame * normal);
+        lightAt(layout, part.view.words, key_.settings.representation, radius * vec3(inRegion), part.flow);
+    sum += inRegion.w * part.weight * surfaceIlluminance(light, part.toFrame * normal);
   }
   return sum;
 }

@@ -9,18 +9,19 @@
 #include <optional>
 #include <string>
 
+#include "irradiance_volume/flow.h"
 #include "irradiance_volume/light_samples.h"
-#include "irradiance_volume/sample.h"
+#include "irradiance_volume/photons.h"
 
 namespace nephroid {
 
 struct VolumeSettings {
-  uint32_t representation = kRepresentationGrid;  // kRepresentation...
-  uint32_t kilobytes = 360;                       // 1000 bytes, for each light direction
-  uint32_t lightLevel = 3;                        // of LightSphere
-  uint32_t radius = 3;                            // of the region, bounding radii
-  uint32_t photons = 200;                         // thousands, for each light direction
-  uint32_t paths = 0;                             // Paths
+  uint32_t representation = kRepresentationShells;  // kRepresentation...
+  uint32_t kilobytes = 360;                         // 1000 bytes, for each light direction
+  uint32_t lightLevel = 3;                          // of LightSphere
+  uint32_t radius = 3;                              // of the region, bounding radii
+  uint32_t photons = 200;                           // thousands, for each light direction
+  uint32_t paths = 0;                               // Paths
   uint32_t error = 0;  // of multi-resolution bricks, thousandths of the light; 0 for others
   uint32_t order = 0;  // of spherical harmonics; 0 for others
   bool operator==(const VolumeSettings&) const = default;
@@ -82,25 +83,41 @@ class IrradianceVolume {
   const SampleView& sample(uint32_t index);
   SampleView makeSample(uint32_t index);
 
+  // How a light sample's light is displaced for its share.
+  LightFlow flow(const SampleShare& share);
+
   // Lux by channel at a point of the caster's own space, on the side that the unit vector `normal` points to,
   // for light of 1 lux that travels along the unit vector `direction`: what the device computes.
   vec3 illuminance(vec3 point, vec3 normal, vec3 direction, LightInterpolation interpolation);
 
  private:
   void makeLayers();
-  VolumeLight resolvedLight(vec3 place, vec3 direction);
+  SampleView traceSample(uint32_t index) const;
+  void prepare(vec3 direction, LightInterpolation interpolation);
 
   VolumeKey key_;
   std::optional<Material> material_;
-  std::unique_ptr<PhotonTracer> tracer_;  // none where a file was given
+  std::unique_ptr<CasterTracer> tracer_;  // none where a file was given
   Symmetry symmetry_;
   BoundingSphere sphere_;
   LightSamples lightSamples_;
   std::filesystem::path cacheFolder_;
   std::vector<std::optional<SampleView>> samples_;
   std::unique_ptr<IrradianceVolume> base_;  // what spherical harmonics are made of
-  vec3 resolvedDirection_{0};               // of the last illuminance by spherical harmonics
-  std::vector<uint32_t> resolvedWords_;
+
+  // All that the illuminance of one direction of the light is made of.
+  struct Part {
+    SampleView view;
+    mat3 toFrame{1};
+    float weight = 1;
+    LightFlow flow;
+  };
+  struct Prepared {
+    vec3 direction{0};
+    LightInterpolation interpolation = LightInterpolation::nearest;
+    std::vector<Part> parts;
+  };
+  Prepared prepared_;  // of the last illuminance
 };
 
 }  // namespace nephroid

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "volumes are written as they lie in memory");
 
 constexpr char kMagic[8] = {'n', 'e', 'p', 'h', 'I', 'R', 'V', '\n'};
-constexpr uint32_t kVersion = 1;  // goes up with every change to what is stored or to how light is followed
+constexpr uint32_t kVersion = 2;  // goes up with every change to what is stored or to how light is followed
 constexpr uint64_t kCacheBytes = uint64_t{2} << 30;
 constexpr const char* kExtension = ".light";
 constexpr uint32_t kSamplesBetweenTrims = 32;
@@ -49,7 +49,7 @@ struct FileHeader {
   uint64_t headerHash;  // of all before it
 };
 static_assert(sizeof(FileHeader) == 120 && offsetof(FileHeader, headerHash) == 112);
-static_assert(sizeof(SampleLayout) == 32);
+static_assert(sizeof(SampleLayout) == 48);
 
 uint64_t hashOf(const FileHeader& header) {
   return hashBytes(std::as_bytes(std::span(&header, 1)).first(offsetof(FileHeader, headerHash)));

@@ -26,7 +26,9 @@ std::span<const SettingField> settingFields() {
        "How often the icosahedron of an irradiance volume's light directions is cut finer: 10 * 4^N + 2 "
        "directions, fewer for symmetric casters",
        &Settings::lightLevel, 0, kMostLightLevels, nullptr, true},
-      {"volume-radius", "Where an irradiance volume ends, in radii of its caster's bounding sphere",
+      {"volume-radius",
+       "Where an irradiance volume ends, in radii of its caster's bounding sphere; beyond, light goes on as "
+       "it left",
        &Settings::volumeRadius, 2, 64, nullptr, true},
       {"volume-photons", "Thousands of photons for each light direction of an irradiance volume",
        &Settings::volumePhotons, 1, 100000, nullptr, true},

@@ -33,7 +33,8 @@ inline constexpr std::array<const char*, 2> kPathsNames{"transmission", "all"};
 inline constexpr std::array<const char*, 2> kInterpolationNames{"surface", "blend"};
 inline constexpr std::array<const char*, 2> kCullingNames{"hierarchical", "flat"};
 inline constexpr std::array<const char*, 2> kCosineNames{"exact", "still-water"};
-inline constexpr std::array<const char*, 3> kLightInterpolationNames{"nearest", "barycentric", "rotated"};
+inline constexpr std::array<const char*, 4> kLightInterpolationNames{"nearest", "barycentric", "rotated",
+                                                                     "flow"};
 
 // How an irradiance volume is kept; as kRepresentation... of irradiance_volume/lookup.h.
 enum class Representation { grid, shells, multiResolution, harmonics };
@@ -53,8 +54,8 @@ struct TechniqueSettings {
   uint32_t refineDepth = 2;     // times a beam may be halved along its edges
   Culling culling = Culling::hierarchical;
   Cosine cosine = Cosine::exact;
-  LightInterpolation lightInterpolation = LightInterpolation::rotated;
-  Representation representation = Representation::grid;
+  LightInterpolation lightInterpolation = LightInterpolation::flow;
+  Representation representation = Representation::shells;
   uint32_t volumeKilobytes = 360;  // of an irradiance volume, for each light direction
   uint32_t lightLevel = 3;         // times the icosahedron of light directions is cut finer
   uint32_t volumeRadius = 3;       // bounding radii

@@ -1,6 +1,7 @@
 #include "techniques/irradiance_volume/irradiance_volume.h"
 
 #include <algorithm>
+#include <deque>
 #include <map>
 
 #include "core/cache_folder.h"
@@ -51,7 +52,10 @@ class IrradianceVolumes final : public Technique {
   void addResolved(const Object& object, IrradianceVolume& volume, std::span<const Emitter> emitters,
                    const ShapedLight& light);
   void addShare(const Object& object, const IrradianceVolume& volume, const SampleLayout& layout,
-                const mat3& toFrame, vec3 lux, VkDeviceAddress words);
+                const mat3& toFrame, vec3 lux, VkDeviceAddress words, const LightFlow& flow = {});
+  // Filled, and kept until the next frame is made.
+  template <class T>
+  const gpu::Buffer& addBuffer(const char* name, const std::vector<T>& values);
   VkDeviceAddress onDevice(IrradianceVolume& volume, uint32_t sample);
 
   gpu::Device& device;
@@ -63,7 +67,7 @@ class IrradianceVolumes final : public Technique {
   std::map<std::pair<const IrradianceVolume*, uint32_t>, gpu::Buffer> uploaded;
   // Of the frame being made.
   std::vector<VolumeConstants> shares;
-  std::vector<gpu::Buffer> resolved;
+  std::deque<gpu::Buffer> ofFrame;
 };
 
 IrradianceVolumes::IrradianceVolumes(const TechniqueContext& context)
@@ -89,13 +93,14 @@ VkDeviceAddress IrradianceVolumes::onDevice(IrradianceVolume& volume, uint32_t s
 
 void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& volume,
                                  const SampleLayout& layout, const mat3& toFrame, vec3 lux,
-                                 VkDeviceAddress words) {
+                                 VkDeviceAddress words, const LightFlow& flow) {
   if (layout.words == 0 || lux == vec3(0)) return;
   const Placement& placement = object.placement;
   const vec3 centre = placement.point(volume.sphere().centre);
   // From the world, metres, to the sample's frame, bounding radii; and on to places.
   const float placesPerMetre = layout.placesPerUnit / (placement.scale * volume.sphere().radius);
-  const mat3 linear = placesPerMetre * (toFrame * glm::transpose(glm::mat3_cast(placement.rotation)));
+  const mat3 turn = toFrame * glm::transpose(glm::mat3_cast(placement.rotation));
+  const mat3 linear = placesPerMetre * turn;
   const vec3 offset = -(linear * centre) - layout.placesPerUnit * layout.corner;
   VolumeConstants constants{};
   for (int row = 0; row < 3; ++row)
@@ -105,6 +110,11 @@ void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& v
   constants.lux = lux;
   constants.size = layout.size;
   constants.words = words;
+  constants.source = glm::transpose(turn) * layout.source;
+  constants.flowSide = flow.side;
+  std::vector<vec3> values{flow.origin, flow.scale};
+  values.insert(values.end(), flow.moves.begin(), flow.moves.end());
+  constants.flow = addBuffer("irradiance flow", values).address();
   shares.push_back(constants);
 }
 
@@ -112,7 +122,7 @@ void IrradianceVolumes::addShares(const Object& object, IrradianceVolume& volume
   const vec3 inOwnSpace = object.placement.inverseDirection(direction);
   for (const SampleShare& share : volume.lightSamples().around(inOwnSpace, settings.lightInterpolation))
     addShare(object, volume, volume.sample(share.sample).layout, volume.toFrame(share), share.weight * lux,
-             onDevice(volume, share.sample));
+             onDevice(volume, share.sample), volume.flow(share));
 }
 
 void IrradianceVolumes::addResolved(const Object& object, IrradianceVolume& volume,
@@ -134,17 +144,21 @@ void IrradianceVolumes::addResolved(const Object& object, IrradianceVolume& volu
   if (sum <= 0) return;
   for (float& coefficient : coefficients) coefficient /= sum;
   const std::vector<uint32_t> words = volume.resolve(coefficients);
-  gpu::Buffer buffer = gpu::createBuffer(device, "resolved irradiance volume",
-                                         words.size() * sizeof(uint32_t), gpu::MemoryKind::upload);
-  buffer.write(words);
+  const gpu::Buffer& buffer = addBuffer("resolved irradiance volume", words);
   addShare(object, volume, volume.sample(0).layout, mat3(1), lux, buffer.address());
-  resolved.push_back(std::move(buffer));
+}
+
+template <class T>
+const gpu::Buffer& IrradianceVolumes::addBuffer(const char* name, const std::vector<T>& values) {
+  gpu::Buffer buffer = gpu::createBuffer(device, name, values.size() * sizeof(T), gpu::MemoryKind::upload);
+  buffer.write(values);
+  return ofFrame.emplace_back(std::move(buffer));
 }
 
 void IrradianceVolumes::update(GpuScene&) {
   const Scene& now = transport.scene();
   shares.clear();
-  resolved.clear();
+  ofFrame.clear();
   const std::vector<ShapedLight> lights = shapedLights(now);
   for (uint32_t l = 0; l < lights.size(); ++l) {
     const std::vector<Emitter> emitters = emittersOf(now.lights[l], l);
@@ -163,7 +177,7 @@ void IrradianceVolumes::update(GpuScene&) {
   }
   uint64_t bytes = 0;
   for (const auto& [sample, buffer] : uploaded) bytes += buffer.size();
-  for (const gpu::Buffer& buffer : resolved) bytes += buffer.size();
+  for (const gpu::Buffer& buffer : ofFrame) bytes += buffer.size();
   stats.counts = {{"lookups", shares.size()}, {"light_samples", uploaded.size()}, {"volume_bytes", bytes}};
 }
 

@@ -10,6 +10,10 @@
 layout(buffer_reference, scalar) readonly buffer VolumeWords {
   uint word[];
 };
+// Of FlowView.
+layout(buffer_reference, scalar) readonly buffer FlowWords {
+  vec3 originScaleAndMoves[];
+};
 #endif
 
 SHARED_BEGIN
@@ -22,12 +26,15 @@ struct VolumeConstants {
   vec3 lux;             // of the light that falls on the caster, times the share
   uvec3 size;           // of the volume
   BUFFER_ADDRESS(VolumeWords) words;
+  vec3 source;    // as SampleLayout has it, turned to the world
+  uint flowSide;  // FlowView::side
+  BUFFER_ADDRESS(FlowWords) flow;
 };
 
 SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(nephroid::VolumeConstants) == 96);
+static_assert(sizeof(nephroid::VolumeConstants) == 120);
 #endif
 
 #endif

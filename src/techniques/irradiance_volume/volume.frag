@@ -8,6 +8,13 @@ struct VolumeView {
   VolumeWords words;
 };
 uint volumeWord(VolumeView volume, uint index) { return volume.words.word[index]; }
+struct FlowView {
+  vec3 origin;
+  vec3 scale;
+  uint side;
+  FlowWords words;
+};
+vec3 flowMove(FlowView flow, uint index) { return flow.words.originScaleAndMoves[index + 2]; }
 #include "irradiance_volume/lookup.h"
 
 layout(constant_id = 0) const uint kRepresentation = 0;
@@ -25,11 +32,15 @@ void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const vec4 point = imageLoad(receiverPosition, pixel);
   if (point.w == 0) return;
-  const float distance = length(point.xyz - constants.centre) * constants.inverseRadius;
-  if (distance >= 1) return;
+  const vec4 inRegion =
+      placeInRegion((point.xyz - constants.centre) * constants.inverseRadius, constants.source);
+  if (inRegion.w == 0) return;
+  const vec3 place = mapped(vec4(constants.centre + inRegion.xyz / constants.inverseRadius, 1));
+  FlowView flow = FlowView(constants.flow.originScaleAndMoves[0], constants.flow.originScaleAndMoves[1],
+                           constants.flowSide, constants.flow);
   VolumeView volume = VolumeView(constants.size, constants.words);
-  const VolumeLight light = volumeLight(volume, kRepresentation, mapped(vec4(point.xyz, 1)));
+  const VolumeLight light = flowedLight(volume, kRepresentation, flow, place);
   if (light.vector == vec3(0)) return;
   const vec3 normal = normalize(mapped(vec4(imageLoad(receiverNormal, pixel).xyz, 0)));
-  causticsLux = vec4(fadeAt(distance) * constants.lux * surfaceIlluminance(light, normal), 0);
+  causticsLux = vec4(inRegion.w * constants.lux * surfaceIlluminance(light, normal), 0);
 }
