@@ -16,6 +16,8 @@ std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& devic
   const auto technique = makeTechnique({device, request.technique, transport, stats});
   RenderSettings render = request.render;
   render.sight.slices = request.technique.slices;
+  render.shafts = {request.technique.airPlanes, request.technique.airSubplanes,
+                   float(request.technique.airError) / 1000};
   Renderer renderer(device, transport, render, *technique);
   stats.prepareMilliseconds += preparing.milliseconds();
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "optics/curved_triangle.h"
+#include "scene/air.h"
 
 namespace nephroid {
 namespace {
@@ -65,7 +66,7 @@ uint32_t partsOfSide(const ShapedLight& light, const Emitter& emitter, const std
     const vec3 direction = normalize(corners[i]);
     falloff[i] = coneFalloff(dot(direction, emitter.direction), emitter.coneScale, emitter.coneOffset);
     const vec3 local = alongFrame(light.frame, direction);
-    texels[i] = vec2(local) * (light.goboScale / std::max(local.z, 1e-3f));
+    texels[i] = vec2(local) * (length(light.goboTurn) / std::max(local.z, 1e-3f));
     parts = std::max(parts, length(direction - normalize(corners[(i + 1) % 3])) / kWidestPart);
   }
   for (int i = 0; i < 3; ++i) {
@@ -122,9 +123,11 @@ struct VertexRays {
 // Makes the beams of one triangle of the mesh.
 class Builder {
  public:
-  Builder(const TransportSource& sourceOf, const TransportQuery& queryOf, const ShapedLight& lightOf,
-          vec3 color, const BeamSettings& settingsOf, const Surface& surfaceOf, const VertexRays& verticesOf)
-      : source(sourceOf),
+  Builder(const Scene& sceneOf, const TransportSource& sourceOf, const TransportQuery& queryOf,
+          const ShapedLight& lightOf, vec3 color, const BeamSettings& settingsOf, const Surface& surfaceOf,
+          const VertexRays& verticesOf)
+      : scene(sceneOf),
+        source(sourceOf),
         query(queryOf),
         light(lightOf),
         bandColor(color),
@@ -147,7 +150,8 @@ class Builder {
 
  private:
   vec3 incident(const Triangle& t) const {
-    return bandColor *
+    const vec3 middle = (t[0].position + t[1].position + t[2].position) / 3.0f;
+    return bandColor * airTransmittance(scene, query.emitter, middle) *
            glm::max(facing * fluxOnto(light, query.emitter, t[0].position, t[1].position, t[2].position),
                     vec3(0));
   }
@@ -289,6 +293,7 @@ class Builder {
     return ray;
   }
 
+  const Scene& scene;
   const TransportSource& source;
   const TransportQuery& query;
   const ShapedLight& light;
@@ -359,7 +364,7 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
         const uint32_t vertex = mesh.triangles[t][i];
         triangle[i] = {mat3(1)[i], surface.positions[i], vertex, vertices.rays[vertex]};
       }
-      Builder(source, query, light, bandColor, settings, surface, vertices)
+      Builder(scene, source, query, light, bandColor, settings, surface, vertices)
           .add(triangle, forcedCutsFor(mesh, mesh.triangles[t], extent), parts[block]);
     }
   });

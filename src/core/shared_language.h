@@ -19,6 +19,7 @@ using glm::clamp;
 using glm::cross;
 using glm::degrees;
 using glm::dot;
+using glm::exp;
 using glm::floor;
 using glm::ivec2;
 using glm::ivec3;

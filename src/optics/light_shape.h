@@ -29,6 +29,14 @@ SHARED_FUNCTION vec3 alongFrame(LightFrame frame, vec3 direction) {
   return vec3(dot(direction, frame.right), dot(direction, frame.up), dot(direction, frame.forward));
 }
 
+// Where in a gobo light goes, ahead of the light: texels from its middle, right and down. `turn`: texels over
+// the tangent of the angle from the axis, times cosine and sine of the image's rotation, clockwise for who
+// looks along the light.
+SHARED_FUNCTION vec2 placeInGobo(vec2 turn, vec3 local) {
+  vec2 place = vec2(local.x, -local.y) / local.z;
+  return vec2(place.x * turn.x + place.y * turn.y, place.y * turn.x - place.x * turn.y);
+}
+
 SHARED_CONSTANT uint kProfileTypeC = 0u;
 SHARED_CONSTANT uint kProfileTypeB = 1u;
 SHARED_CONSTANT uint kProfileTypeA = 2u;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "optics/refraction.h"
+#include "scene/air.h"
 
 namespace nephroid {
 namespace {
@@ -29,9 +30,7 @@ Facing facing(const Hit& hit, vec3 direction) {
 }  // namespace
 
 Boundaries::Boundaries(const Scene& scene, const RayScene& rayScene)
-    : rays(rayScene),
-      materials(materialsOf(scene)),
-      airExtinction(scene.medium ? scene.medium->extinction : 0.0f) {
+    : rays(rayScene), materials(materialsOf(scene)), air(scene.medium) {
   for (const Material* material : materials) extinctions.push_back(extinctionOf(*material));
   for (const Object& object : scene.objects) isCurved.push_back(scene.meshOf(object).isCurved);
 }
@@ -117,8 +116,9 @@ bool Boundaries::crossThinWall(const Hit& hit, const Band& band, Carried carried
   return true;
 }
 
-vec3 Boundaries::transmittance(const Path& path, float length) const {
-  const vec3 extinction = extinctionIn(path.media.top());
+vec3 Boundaries::transmittance(uint32_t object, vec3 from, vec3 direction, float length) const {
+  if (object == kNone) return vec3(air ? std::exp(-opticalDepth(*air, from, direction, length)) : 1.0f);
+  const vec3 extinction = extinctions[object];
   if (extinction == vec3(0)) return vec3(1);
   return glm::exp(-extinction * length);
 }

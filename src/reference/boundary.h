@@ -33,15 +33,14 @@ class Boundaries {
   bool send(const Hit& hit, const Band& band, Carried carried, Choice choice, Random& random,
             Path& path) const;
 
-  // The part of light that a length (m) of what the path is in lets through.
-  vec3 transmittance(const Path& path, float length) const;
+  // The part of light that a length (m, may be infinite) of an object's material, or of the air for kNone,
+  // lets through along unit `direction`.
+  vec3 transmittance(uint32_t object, vec3 from, vec3 direction, float length) const;
 
   bool isCaster(const Hit& hit) const { return materials[hit.object]->isCaster(); }
   const Material& materialOf(const Hit& hit) const { return *materials[hit.object]; }
   MediumStack mediaAround(vec3 point) const;
   const RayScene& rayScene() const { return rays; }
-  // 1/m in an object's material, per channel; that of the air for kNone.
-  vec3 extinctionIn(uint32_t object) const { return object == kNone ? airExtinction : extinctions[object]; }
 
  private:
   bool crossDielectric(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
@@ -55,7 +54,7 @@ class Boundaries {
   std::vector<const Material*> materials;  // of the objects
   std::vector<vec3> extinctions;           // of the objects
   std::vector<bool> isCurved;              // their meshes
-  vec3 airExtinction;
+  const std::optional<Medium>& air;
 };
 
 }  // namespace nephroid

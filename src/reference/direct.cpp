@@ -15,9 +15,9 @@ vec3 directIlluminance(const Boundaries& boundaries, const Lights& lights, uint3
   if (illumination.illuminance == vec3(0)) return vec3(0);
   if (!isLit(boundaries.rayScene(), illumination, point.position, point.clearance)) return vec3(0);
   vec3 lux = cosine * illumination.illuminance;
-  const vec3 extinction = boundaries.extinctionIn(point.medium);
-  if (extinction != vec3(0) && !lights.isDirectional(light))
-    lux *= glm::exp(-extinction * illumination.distance);
+  if (!lights.isDirectional(light))
+    lux *= boundaries.transmittance(point.medium, point.position, -illumination.direction,
+                                    illumination.distance);
   return lux;
 }
 

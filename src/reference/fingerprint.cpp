@@ -35,7 +35,14 @@ void add(SceneHasher& hasher, const Material& m) {
 
 void add(SceneHasher& hasher, const Light& l) {
   hasher.add(static_cast<uint32_t>(l.type), l.position, l.end, l.direction, l.intensity, l.illuminance,
-             l.innerAngle, l.outerAngle, l.goboTexture, l.profile);
+             l.innerAngle, l.outerAngle, l.goboTexture, l.goboRotation, l.profile);
+}
+
+void add(SceneHasher& hasher, const Medium& m) {
+  hasher.add(m.extinction, m.albedo, static_cast<uint32_t>(m.phase), m.g, m.fogBase, m.fogHeight);
+  if (m.grid)
+    hasher.add(m.grid->corner, m.grid->size, m.grid->cells.x, m.grid->cells.y, m.grid->cells.z,
+               m.grid->densities);
 }
 
 }  // namespace
@@ -56,8 +63,7 @@ uint64_t fingerprint(const Scene& scene) {
     hasher.add(static_cast<uint32_t>(profile.type), profile.verticalAngles, profile.horizontalAngles,
                profile.fractions);
   for (const Light& light : scene.lights) add(hasher, light);
-  if (const std::optional<Medium>& medium = scene.medium)
-    hasher.add(medium->extinction, medium->albedo, static_cast<uint32_t>(medium->phase), medium->g);
+  if (const std::optional<Medium>& medium = scene.medium) add(hasher, *medium);
   for (const Sensor& sensor : scene.sensors)
     hasher.add(sensor.corner, sensor.u, sensor.v, sensor.resolution.x, sensor.resolution.y);
   return hasher.value();

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "reference/air.h"
+#include "scene/air.h"
 
 namespace nephroid {
 namespace {
@@ -51,7 +51,7 @@ ReferenceImage::ReferenceImage(const Scene& sceneToSee, const RayScene& rays,
 PassLight ReferenceImage::traceLight(std::vector<Splat>& splats) const {
   const PhotonPass pass = photonPass(scene, settings.spectrum, settings.seed, passesDone, settings.photons);
   KeeperSettings keeping{&scene, &boundaries, &camera, &pass.bands, mediaOfCamera.top()};
-  keeping.keepsAir = scene.medium && scatteringCoefficient(*scene.medium) > 0;
+  keeping.keepsAir = scene.medium && scatters(*scene.medium);
   keeping.splats = settings.seenDirectly == SeenDirectly::splatted;
   FluxLedger ledger;
   std::vector<PhotonKeeper> groups = tracePass(tracer, pass, PhotonKeeper(keeping), ledger);

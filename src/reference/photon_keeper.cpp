@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/air.h"
 #include "reference/sight.h"
+#include "scene/air.h"
 
 namespace nephroid {
 namespace {
@@ -22,22 +22,23 @@ StoredPhoton stored(const PhotonSegment& segment, vec3 flux) {
 }  // namespace
 
 void PhotonKeeper::segment(const PhotonSegment& segment) {
-  if (!settings.keepsAir || !segment.metCaster || !segment.isInAir) return;
-  const float extinction = segment.extinction.x;
+  if (!settings.keepsAir || !segment.metCaster || !segment.isInAir()) return;
   const Medium& medium = *settings.scene->medium;
+  const float extinction = segment.isWeakened ? medium.extinction : 0;
   for (uint32_t i = 0; i < kPlacesInAir; ++i) {
     const DistanceSample sample =
         sampleExtinction((float(i) + segment.sample) / float(kPlacesInAir), extinction, segment.length);
     StoredPhoton photon = stored(segment, segment.flux);
     photon.position = segment.ray.origin + sample.distance * segment.ray.direction;
-    photon.flux *= std::exp(-extinction * sample.distance) / (sample.density * float(kPlacesInAir));
+    photon.flux *=
+        segment.transmittance(*settings.boundaries, sample.distance) / (sample.density * float(kPlacesInAir));
     photon.direction = segment.ray.direction;
     inAir.push_back(photon);
     if (!settings.splats) continue;
     const auto seen = settings.camera->project(photon.position);
     if (!seen) continue;
     const float scattered =
-        scatteringCoefficient(medium) * phaseOf(medium, dot(photon.direction, seen->direction));
+        scatteringAt(medium, photon.position) * phaseOf(medium, dot(photon.direction, seen->direction));
     splat(segment, photon.position, photon.flux * scattered, true, *seen);
   }
 }
@@ -67,9 +68,9 @@ void PhotonKeeper::splat(const PhotonSegment& segment, vec3 place, vec3 reflecte
   const RayScene& rays = settings.boundaries->rayScene();
   const float margin = rays.selfIntersectionDistance();
   if (rays.occluded({place, seen.direction, isInAir ? 0 : margin, seen.distance})) return;
-  const vec3 extinction = settings.boundaries->extinctionIn(settings.mediumOfCamera);
   vec3 luminance = reflected * (seen.perSteradian / (seen.distance * seen.distance));
-  if (extinction != vec3(0)) luminance *= glm::exp(-extinction * seen.distance);
+  luminance *=
+      settings.boundaries->transmittance(settings.mediumOfCamera, place, seen.direction, seen.distance);
   if (segment.isDispersed) luminance *= (*settings.bands)[segment.band].weight;
   splats.push_back({seen.pixel, isInAir, luminance});
 }

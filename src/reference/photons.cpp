@@ -16,6 +16,10 @@ float largest(vec3 v) {
 
 }  // namespace
 
+vec3 PhotonSegment::transmittance(const Boundaries& boundaries, float distance) const {
+  return isWeakened ? boundaries.transmittance(medium, ray.origin, ray.direction, distance) : vec3(1);
+}
+
 struct PhotonTracer::Photon {
   Path path;
   Ray ray;
@@ -103,14 +107,14 @@ bool PhotonTracer::fly(Random& random, Photon& photon, PhotonVisitor& visitor, F
   segment.length = isHit ? hit.distance : std::numeric_limits<float>::infinity();
   segment.flux = photon.flux();
   segment.metCaster = path.metCaster;
-  segment.isInAir = path.media.top() == kNone;
-  if (!photon.comesFromAfar) segment.extinction = boundaries.extinctionIn(path.media.top());
+  segment.medium = path.media.top();
+  segment.isWeakened = !photon.comesFromAfar;
   segment.endsOnReceiver = isHit && !boundaries.isCaster(hit);
   segment.isDispersed = path.isDispersed;
   segment.band = photon.band;
   segment.sample = random.uniform();
   visitor.segment(segment);
-  if (segment.extinction != vec3(0)) path.throughput *= glm::exp(-segment.extinction * segment.length);
+  path.throughput *= segment.transmittance(boundaries, segment.length);
   const vec3 flux = photon.flux();
   ledger.absorbed += glm::dvec3(segment.flux) - glm::dvec3(flux);
   if (segment.endsOnReceiver && path.metCaster) visitor.landing(segment, hit, flux);

@@ -12,16 +12,19 @@ namespace nephroid {
 
 // A photon on its way from one place to the next. Its flux is without the weight of its band.
 struct PhotonSegment {
-  Ray ray;                 // m
-  float length = 0;        // m; infinite where it escapes
-  vec3 flux{0};            // lm at the start
-  vec3 extinction{0};      // 1/m of what it is in
-  bool metCaster = false;  // before; if not, it is direct light
-  bool isInAir = false;
+  Ray ray;                  // m
+  float length = 0;         // m; infinite where it escapes
+  vec3 flux{0};             // lm at the start
+  uint32_t medium = kNone;  // the object it is in
+  bool isWeakened = true;   // by what it is in
+  bool metCaster = false;   // before; if not, it is direct light
+  bool isInAir() const { return medium == kNone; }
   bool endsOnReceiver = false;
   bool isDispersed = false;
   uint32_t band = 0;  // of the pass
   float sample = 0;   // uniform in [0, 1), for the visitor
+  // What is left of its flux after so many m.
+  vec3 transmittance(const Boundaries& boundaries, float distance) const;
 };
 
 // Is told where photons go.

@@ -17,8 +17,10 @@ class SensorVisitor final : public PhotonVisitor {
     vec3 flux;  // lm
   };
 
-  SensorVisitor(const Sensor& meter, const std::vector<Band>& bandsOfPass, float tolerance)
-      : corner(meter.corner),
+  SensorVisitor(const Sensor& meter, const std::vector<Band>& bandsOfPass,
+                const Boundaries& boundariesOfScene, float tolerance)
+      : boundaries(&boundariesOfScene),
+        corner(meter.corner),
         normal(cross(glm::dvec3(meter.v), glm::dvec3(meter.u))),
         resolution(meter.resolution),
         bands(&bandsOfPass),
@@ -43,13 +45,14 @@ class SensorVisitor final : public PhotonVisitor {
     if (!(column >= 0 && column < resolution.x && row >= 0 && row < resolution.y)) return;
     vec3 flux = segment.flux;
     if (segment.isDispersed) flux *= (*bands)[segment.band].weight;
-    if (segment.extinction != vec3(0)) flux *= glm::exp(-segment.extinction * float(distance));
+    flux *= segment.transmittance(*boundaries, float(distance));
     counts.push_back({uint32_t(row) * resolution.x + uint32_t(column), flux});
   }
 
   std::vector<Count> counts;
 
  private:
+  const Boundaries* boundaries;
   glm::dvec3 corner, normal, across, along;
   uvec2 resolution;
   const std::vector<Band>* bands;
@@ -92,8 +95,8 @@ void ReferenceSensor::pass() {
 
 std::vector<vec3> ReferenceSensor::countPhotons() {
   const PhotonPass pass = photonPass(scene, settings.spectrum, settings.seed, passesDone, settings.photons);
-  const std::vector<SensorVisitor> groups =
-      tracePass(tracer, pass, SensorVisitor(sensor, pass.bands, toleranceOf(boundaries.rayScene())), flux);
+  const std::vector<SensorVisitor> groups = tracePass(
+      tracer, pass, SensorVisitor(sensor, pass.bands, boundaries, toleranceOf(boundaries.rayScene())), flux);
   ++passesTraced;
   std::vector<glm::dvec3> lumens(std::size_t(sensor.resolution.x) * sensor.resolution.y, glm::dvec3(0));
   for (const SensorVisitor& group : groups)

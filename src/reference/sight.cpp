@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reference/air.h"
+#include "scene/air.h"
 
 namespace nephroid {
 namespace {
@@ -71,7 +71,8 @@ Seen Sight::look(const Ray& ray, const MediumStack& media, const PassLight& ligh
     const bool isHit = boundaries.rayScene().intersect(view.ray, hit);
     const float length = isHit ? hit.distance : std::numeric_limits<float>::infinity();
     if (scene.medium && view.path.media.top() == kNone) seen.shafts += scattered(view, length, light, random);
-    view.path.throughput *= boundaries.transmittance(view.path, length);
+    view.path.throughput *=
+        boundaries.transmittance(view.path.media.top(), view.ray.origin, view.ray.direction, length);
     if (!isHit) {
       seen.rest += view.weight(light) * scene.environment.background;
       return seen;
@@ -121,14 +122,13 @@ vec3 Sight::gather(const View& view, const Hit& hit, vec3 normal, const PassLigh
 
 // Light scattered once, in the air of the ray's next `length` (m).
 vec3 Sight::scattered(const View& view, float length, const PassLight& light, Random& random) const {
-  const float scattering = scatteringCoefficient(*scene.medium);  // 1/m
-  if (scattering <= 0) return vec3(0);
+  if (!scatters(*scene.medium)) return vec3(0);
   vec3 sum(0);
   for (uint32_t source = 0; source < lights.count(); ++source)
     sum += view.weight(light) * scatteredFromLight(view, length, source, random);
   if (view.path.metCaster || !light.isSplatted)
     sum += view.path.throughput * scatteredFromCasters(view, length, light, random);
-  return scattering * sum;
+  return sum;
 }
 
 vec3 Sight::scatteredFromLight(const View& view, float length, uint32_t source, Random& random) const {
@@ -143,9 +143,11 @@ vec3 Sight::scatteredFromLight(const View& view, float length, uint32_t source, 
   const Illumination illumination = lights.illumination(source, point, along);
   if (illumination.illuminance == vec3(0) || !(sample.density > 0)) return vec3(0);
   if (!isLit(boundaries.rayScene(), illumination, point, 0)) return vec3(0);
-  const float onTheWay = sample.distance + (isDirectional ? 0 : illumination.distance);  // m
-  return illumination.illuminance * phaseOf(*scene.medium, -dot(illumination.direction, view.ray.direction)) *
-         std::exp(-extinction * onTheWay) / sample.density;
+  const Medium& air = *scene.medium;
+  float depth = opticalDepth(air, view.ray.origin, view.ray.direction, sample.distance);
+  if (!isDirectional) depth += opticalDepth(air, point, -illumination.direction, illumination.distance);
+  return illumination.illuminance * phaseOf(air, -dot(illumination.direction, view.ray.direction)) *
+         scatteringAt(air, point) * std::exp(-depth) / sample.density;
 }
 
 // By the photons in balls around a few places, each in a part of its own of what photons can be near.
@@ -170,7 +172,9 @@ vec3 Sight::scatteredFromCasters(const View& view, float length, const PassLight
                (1 - squared / (radius * radius)));
     });
     const float kernel = 15 / (8 * kPi * radius * radius * radius);  // 1/m3
-    sum += near * (kernel * std::exp(-extinction * distance) / (sample.density * float(kPlaces)));
+    const Medium& air = *scene.medium;
+    const float left = std::exp(-opticalDepth(air, view.ray.origin, view.ray.direction, distance));
+    sum += near * (kernel * scatteringAt(air, point) * left / (sample.density * float(kPlaces)));
   }
   return sum;
 }

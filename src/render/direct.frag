@@ -1,127 +1,42 @@
 // Illuminance (lux) on each receiver by one light that met no caster.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "render/frame_data.h"
+#include "render/light.glsl.h"
 
-#include "optics/light_shape.h"
+#include "render/air/box.glsl.h"
 
-layout(constant_id = 0) const uint kEmitterType = kEmitterPoint;
-layout(constant_id = 1) const uint kMapCount = 1;  // for each point: 0: nothing can shade; 1; or 6, the faces of a cube about the light: +x, -x, +y, -y, +z, -z
-layout(constant_id = 2) const bool kIsLine = false;
-layout(constant_id = 3) const bool kHasGobo = false;
-layout(constant_id = 4) const uint kProfileType = kNoProfile;  // else kProfileType...
-layout(push_constant, scalar) uniform Constants { DirectConstants constants; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
-layout(set = 0, binding = 2) uniform sampler2DArray shadowMaps;
-layout(set = 0, binding = 3) uniform sampler2D gobo;
-// Row 0 and column 0: vertical and horizontal angles (degrees). The rest: parts of the peak, a row for each horizontal angle.
-layout(set = 0, binding = 4) uniform sampler2D profile;
+layout(set = 0, binding = 5) uniform sampler2DArray boxDepths;  // kHasBox
+layout(location = 0) flat in Air air;                            // kHasAir
+layout(location = 11) flat in AirBox box;                        // kHasBox
 layout(location = 0) out vec4 directLux;  // added to that of other lights
 
-// Where `offset`, a vector from the light, is in the face of a cube that looks along the largest part of it.
-vec3 projectedOnCube(vec3 offset, out uint face) {
-  const vec3 size = abs(offset);
-  if (size.x >= size.y && size.x >= size.z) {
-    face = offset.x > 0 ? 0u : 1u;
-    return vec3(offset.x > 0 ? offset.z : -offset.z, offset.y, size.x);
-  }
-  if (size.y >= size.z) {
-    face = offset.y > 0 ? 2u : 3u;
-    return vec3(offset.y > 0 ? -offset.z : offset.z, offset.x, size.y);
-  }
-  face = offset.z > 0 ? 4u : 5u;
-  return vec3(offset.z > 0 ? -offset.x : offset.x, offset.y, size.z);
-}
-
-// Place in a map and depth, before the division by it.
-vec3 projected(vec3 offset, float texels, out uint face) {
-  face = 0;
-  if (kMapCount == 1) return vec3(dot(constants.mapX, offset), dot(constants.mapY, offset), dot(constants.mapDepth, offset));
-  const vec3 place = projectedOnCube(offset, face);
-  return vec3(place.xy / (constants.texelSize * texels), place.z);
-}
-
-// The part of the light that a tent two texels wide finds unhindered. The point is moved off its surface so far that a plane
-// never shades itself within the filter: (filter radius) * texel * sin(angle of incidence) along the normal.
+// The point is moved off its surface so far that a plane never shades itself within the filter: (filter radius) * texel *
+// sin(angle of incidence) along the normal.
 float visibility(vec3 offset, vec3 normal, float cosine, vec2 middle, uint firstMap) {
-  const bool isPerspective = kEmitterType != kEmitterDirectional;
-  const float texels = float(textureSize(shadowMaps, 0).x);
   uint face = 0;
   float width = constants.texelSize;
-  if (isPerspective) width *= max(projected(offset, texels, face).z, 0);
-  offset += width * (1.5 * sqrt(max(1 - cosine * cosine, 0)) + 0.3) * normal;
-  const vec3 place = projected(offset, texels, face);
-  const float inverse = isPerspective ? 1 / place.z : 1;
-  const float depth = isPerspective ? constants.depthScale + constants.depthOffset * inverse : place.z + constants.depthOffset;
-  // Outside a map nothing shades, and its border is empty.
-  const vec2 at = place.xy * inverse - middle + 0.5;
-  const vec4 isLit = step(vec4(min(depth, 1)), textureGather(shadowMaps, vec3(at, float(firstMap + face))));
-  const vec2 after = fract(at * texels - 0.5);
-  const vec2 columns = mix(isLit.wx, isLit.zy, after.x);
-  const float sum = mix(columns.x, columns.y, after.y);
-  return isPerspective && place.z <= 0 ? 1 : sum;
-}
-
-float verticalAngle(int i) { return texelFetch(profile, ivec2(i + 1, 0), 0).r; }
-float horizontalAngle(int i) { return texelFetch(profile, ivec2(0, i + 1), 0).r; }
-
-// As profileFraction in scene/light_intensity.cpp.
-float profileFraction(vec3 local) {
-  const ivec2 counts = textureSize(profile, 0) - 1;
-  const ProfileRange range = ProfileRange(vec2(verticalAngle(0), verticalAngle(counts.x - 1)),
-                                          vec2(horizontalAngle(0), horizontalAngle(counts.y - 1)));
-  const vec2 angles = profileAngles(kProfileType, range, local);
-  if (!profileHolds(kProfileType, range, angles)) return 0;
-  ivec2 low = ivec2(lowerAngle(range.vertical, counts.x, angles.x), 0);
-  while (low.x > 0 && angles.x < verticalAngle(low.x)) --low.x;
-  while (low.x + 2 < counts.x && angles.x > verticalAngle(low.x + 1)) ++low.x;
-  const vec2 verticals = vec2(verticalAngle(low.x), verticalAngle(low.x + 1));
-  vec2 part = vec2((angles.x - verticals.x) / (verticals.y - verticals.x), 0);
-  ivec2 next = ivec2(1, 0);
-  if (counts.y > 1) {
-    low.y = lowerAngle(range.horizontal, counts.y, angles.y);
-    while (low.y > 0 && angles.y < horizontalAngle(low.y)) --low.y;
-    while (low.y + 2 < counts.y && angles.y > horizontalAngle(low.y + 1)) ++low.y;
-    const vec2 horizontals = vec2(horizontalAngle(low.y), horizontalAngle(low.y + 1));
-    part.y = (angles.y - horizontals.x) / (horizontals.y - horizontals.x);
-    next.y = 1;
-  }
-  part = clamp(part, vec2(0), vec2(1));
-  const ivec2 at = low + 1;
-  return mix(mix(texelFetch(profile, at, 0).r, texelFetch(profile, at + ivec2(1, 0), 0).r, part.x),
-             mix(texelFetch(profile, at + ivec2(0, next.y), 0).r, texelFetch(profile, at + next, 0).r, part.x), part.y);
-}
-
-// What gobo and profile leave of the light that goes along `direction`, within the cone.
-vec3 shape(vec3 direction) {
-  const vec3 local = alongFrame(lightFrame(constants.emitter.direction), direction);
-  vec3 part = vec3(1);
-  if (kProfileType != kNoProfile) part *= profileFraction(local);
-  if (kHasGobo) {
-    const vec2 fromMiddle = vec2(local.x, -local.y) * (constants.goboScale / local.z);
-    part *= textureLod(gobo, 0.5 + fromMiddle / vec2(textureSize(gobo, 0)), 0).rgb;
-  }
-  return part;
+  if (kEmitterType != kEmitterDirectional) width *= max(projected(offset, float(textureSize(shadowMaps, 0).x), face).z, 0);
+  return litPart(offset + width * (1.5 * sqrt(max(1 - cosine * cosine, 0)) + 0.3) * normal, middle, firstMap);
 }
 
 vec3 illuminance(vec3 point, vec3 normal, vec3 origin, uint index) {
-  Emitter emitter = constants.emitter;
-  emitter.type = kEmitterType;
-  emitter.position = origin;
+  const Emitter emitter = emitterAt(origin);
   const vec3 direction = emitterDirection(emitter, point);
   const float cosine = -dot(direction, normal);
   vec3 lux = cosine * emitterIlluminance(emitter, point);
   // Behind a gobo's light there is no place in it to look at.
   if (kHasGobo || kProfileType != kNoProfile) lux = lux == vec3(0) ? vec3(0) : lux * shape(direction);
   if (kMapCount > 0) {
-    vec2 middle = vec2(0);
-    if (kIsLine) {
-      const vec3 aim = constants.aim - origin;
-      middle = vec2(dot(constants.mapX, aim), dot(constants.mapY, aim)) / dot(constants.mapDepth, aim);
-    }
     const vec3 from = kEmitterType == kEmitterDirectional ? constants.aim : origin;
-    lux *= visibility(point - from, normal, cosine, middle, index * kMapCount);
+    lux *= visibility(point - from, normal, cosine, middleOfMap(origin), index * kMapCount);
+  }
+  // Light from afar is as strong as it is said to be where it meets a surface.
+  if (kHasAir && kEmitterType != kEmitterDirectional) {
+    const float way = kHasBox ? boxDepthBetween(boxDepths, box, origin, point, box.firstLayer)
+                              : meanFogDensity(air, origin.y, point.y) * distance(origin, point);
+    lux *= exp(-air.extinction * way);
   }
   return cosine > 0 ? lux : vec3(0);
 }
@@ -133,9 +48,9 @@ void main() {
   vec3 sum = vec3(0);
   if (kIsLine) {
     for (uint i = 0; i < constants.samples; ++i)
-      sum += illuminance(point.xyz, normal, constants.emitter.position + float(i) * constants.emitter.direction, i);
+      sum += illuminance(point.xyz, normal, constants.position + float(i) * constants.direction, i);
   } else {
-    sum = illuminance(point.xyz, normal, constants.emitter.position, 0);
+    sum = illuminance(point.xyz, normal, constants.position, 0);
   }
   directLux = vec4(point.a > 0 ? sum : vec3(0), 0);
 }

@@ -5,9 +5,9 @@
 
 #include "gpu/transfer.h"
 #include "scene/light_intensity.h"
+#include "shaders/air_vert.h"
 #include "shaders/direct_frag.h"
 #include "shaders/shadow_vert.h"
-#include "shaders/whole_picture_vert.h"
 
 namespace nephroid {
 namespace {
@@ -59,27 +59,36 @@ DirectLight::DirectLight(gpu::Device& device, const Scene& scene, uint32_t shado
 
 DirectLight::DrawnLight DirectLight::drawn(const Scene& scene, ShadowedLight shadowed) {
   const Light& light = scene.lights[shadowed.emitter.light];
-  DrawnLight drawn{std::move(shadowed), {}, kNone, kNone, 0};
+  DrawnLight drawn{std::move(shadowed), {}, kNone, kNone, vec2(0)};
   drawn.key = {.type = drawn.shadowed.emitter.type,
                .mapCount = drawn.shadowed.mapCount,
                .isLine = drawn.shadowed.samples > 1};
   if (light.type != LightType::spot) return drawn;
   drawn.gobo = light.goboTexture;
   drawn.profile = light.profile;
-  drawn.goboScale = shapedLight(scene, light).goboScale;
+  drawn.goboTurn = shapedLight(scene, light).goboTurn;
   drawn.key.hasGobo = drawn.gobo != kNone;
   if (drawn.profile != kNone)
     drawn.key.profileType = static_cast<uint32_t>(scene.profiles[drawn.profile].type);
   return drawn;
 }
 
-DirectConstants DirectLight::constantsOf(const DrawnLight& drawn) {
+std::vector<gpu::SpecializationConstant> DirectLight::ProgramKey::specialization() const {
+  return {{0, type}, {1, mapCount}, {2, isLine}, {3, hasGobo}, {4, profileType}, {5, hasAir}, {8, hasAirBox}};
+}
+
+DirectConstants DirectLight::constants(uint32_t index) const {
+  const DrawnLight& drawn = lights_[index];
   const ShadowedLight& light = drawn.shadowed;
   DirectConstants constants{};
-  constants.emitter = light.emitter;
+  if (air_.lights != 0) constants.air = air_.lights + index * sizeof(AirLight);
+  constants.position = light.emitter.position;
+  constants.direction = light.samples > 1 ? light.step : light.emitter.direction;
+  constants.power = light.emitter.power;
+  constants.coneScale = light.emitter.coneScale;
+  constants.coneOffset = light.emitter.coneOffset;
   constants.samples = light.samples;
-  constants.goboScale = drawn.goboScale;
-  if (light.samples > 1) constants.emitter.direction = light.step;
+  constants.goboTurn = drawn.goboTurn;
   if (light.mapCount == 0) return constants;
   const ShadowProjection& projection = light.projection;
   const float width = 2 * projection.halfWidth, depth = projection.farthest - projection.nearest;
@@ -98,7 +107,8 @@ DirectConstants DirectLight::constantsOf(const DrawnLight& drawn) {
   return constants;
 }
 
-void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& extents) {
+void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& extents, const LightsInAir& air) {
+  air_ = air;
   objectsToWorld_.clear();
   for (const Object& object : scene.objects) objectsToWorld_.push_back(toWorld(object.placement));
   lights_.clear();
@@ -114,12 +124,13 @@ void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& exte
                                    .width = light.resolution,
                                    .height = light.resolution,
                                    .layers = layers});
-    const ProgramKey& key = lights_[i].key;
+    ProgramKey& key = lights_[i].key;
+    key.hasAir = air.lights != 0;
+    key.hasAirBox = air.hasBox;
     if (!programs_.contains(key))
       programs_[key] = gpu::createRasterProgram(
-          device_, "direct light", shaders::whole_picture_vert, shaders::direct_frag,
-          {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
-          {{0, key.type}, {1, key.mapCount}, {2, key.isLine}, {3, key.hasGobo}, {4, key.profileType}});
+          device_, "direct light", shaders::air_vert, shaders::direct_frag,
+          {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}}, key.specialization());
   }
 }
 
@@ -142,17 +153,24 @@ void DirectLight::record(gpu::CommandList& commands, const GpuScene& gpuScene, c
   const bool isAll = points.region.size.x == 0 || points.region.size.y == 0;
   commands.render(
       {.colors = {{&lux, 0, vec4(0)}}, .region = isAll ? std::nullopt : std::optional(points.region)}, [&] {
-        for (std::size_t i = 0; i < lights_.size(); ++i) {
-          const DrawnLight& light = lights_[i];
-          const std::size_t profile = std::min<std::size_t>(light.profile, profiles_.size() - 1);
-          commands.draw(programs_.at(light.key), 3, 1, constantsOf(light),
+        for (uint32_t i = 0; i < lightCount(); ++i) {
+          const auto [map, gobo, profile] = bindings(i, gpuScene);
+          commands.draw(programs_.at(key(i)), 3, 1, constants(i),
                         {*points.position,
                          *points.normal,
-                         {maps_[i], sampler_},
-                         {gpuScene.texture(light.gobo), goboSampler_},
-                         {profiles_[profile], sampler_}});
+                         map,
+                         gobo,
+                         profile,
+                         {air_.depths ? *air_.depths : maps_[i], air_.depths ? goboSampler_ : sampler_}});
         }
       });
+}
+
+std::array<gpu::Binding, 3> DirectLight::bindings(uint32_t light, const GpuScene& gpuScene) const {
+  const DrawnLight& drawn = lights_[light];
+  const std::size_t profile = std::min<std::size_t>(drawn.profile, profiles_.size() - 1);
+  return {gpu::Binding(maps_[light], sampler_), gpu::Binding(gpuScene.texture(drawn.gobo), goboSampler_),
+          gpu::Binding(profiles_[profile], sampler_)};
 }
 
 }  // namespace nephroid

@@ -52,41 +52,60 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       technique_(technique),
       settings_(settings),
       gpuScene_(device, transport.scene()),
-      programs_(createFramePrograms(device, hasEmission(transport.scene()))),
+      programs_(createFramePrograms(device,
+                                    {hasEmission(transport.scene()), transport.scene().medium.has_value()})),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
       sight_(device, settings.sight),
       directLight_(
           device, transport.scene(),
-          settings.shadowMapSize > 0 ? settings.shadowMapSize : std::max(settings.size.x, settings.size.y)) {
+          settings.shadowMapSize > 0 ? settings.shadowMapSize : std::max(settings.size.x, settings.size.y)),
+      shafts_(device, transport.scene(), settings.size, settings.shafts) {
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
 }
 
 std::vector<PassTime> Renderer::render(const Scene& scene) {
   std::vector<PassTime> passes;
   onHost(passes, "placement", [&] { place(scene); });
-  onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_); });
+  onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_, shafts_.lightsInAir()); });
   onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
   onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
   ensureImages();
 
-  const std::vector<PassTime> onDevice = device_.submitAndWait([&](gpu::CommandList& commands) {
+  const auto onDevice = [&](const std::function<void(gpu::CommandList&)>& record) {
+    const std::vector<PassTime> some = device_.submitAndWait(record);
+    passes.insert(passes.end(), some.begin(), some.end());
+  };
+  onDevice([&](gpu::CommandList& commands) {
     commands.pass("shadow maps", [&] { directLight_.recordShadowMaps(commands, gpuScene_); });
     technique_.record(commands, gpuScene_);
+    if (shafts_) commands.pass("depths of the air", [&] { shafts_.recordDepths(commands); });
     commands.pass("receivers", [&] { drawReceivers(commands); });
     sight_.record(commands, gpuScene_, images_);
-    light(commands, images_.seen, {});
-    if (sight_.reflects()) light(commands, images_.reflected, sight_.region());
-    if (sight_.disperses())
-      for (const SeenImages& seen : images_.dispersed) light(commands, seen, sight_.region());
-    commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}); });
+    if (!shafts_) illuminate(commands);
   });
+  if (shafts_) {
+    onHost(passes, "planes in the air",
+           [&] { shafts_.choosePlanes(directLight_, gpuScene_, images_.depth); });
+    onDevice([&](gpu::CommandList& commands) { illuminate(commands); });
+  }
   technique_.finish();
-  passes.insert(passes.end(), onDevice.begin(), onDevice.end());
   return summedByName(passes);
+}
+
+// What the frame has found is lit, and put together.
+void Renderer::illuminate(gpu::CommandList& commands) {
+  light(commands, images_.seen, {});
+  if (sight_.reflects()) light(commands, images_.reflected, sight_.region());
+  if (sight_.disperses())
+    for (const SeenImages& seen : images_.dispersed) light(commands, seen, sight_.region());
+  if (shafts_)
+    commands.pass("shafts", [&] { shafts_.record(commands, directLight_, gpuScene_, images_.depth); });
+  commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}); });
 }
 
 void Renderer::place(const Scene& scene) {
   view_ = viewOf(scene.camera, settings_.size);
+  shafts_.update(scene, view_);
   environment_ = scene.environment;
   exposure_ = scene.camera.exposure;
   transport_.place(scene);
@@ -160,7 +179,7 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
           {seen.albedo, seen.directLux, seen.causticsLux, seen.transmittance, reflected.albedo,
            reflected.normal, reflected.directLux, reflected.causticsLux, green.albedo, green.directLux,
            green.causticsLux, green.transmittance, blue.albedo, blue.directLux, blue.causticsLux,
-           blue.transmittance});
+           blue.transmittance, shafts_ ? shafts_.image() : seen.albedo});
     });
   };
   draw({}, {{0, 0}, settings_.size});
@@ -203,6 +222,9 @@ Image Renderer::layers() {
   writeChannels(layers, "", "RGB", gpu::download<vec4>(device_, images_.luminance));
   writeChannels(layers, "direct.", "RGB", gpu::download<vec4>(device_, images_.directLuminance));
   writeChannels(layers, "caustics.", "RGB", gpu::download<vec4>(device_, images_.causticsLuminance));
+  const std::size_t pixels = std::size_t{settings_.size.x} * settings_.size.y;
+  writeChannels(layers, "shafts.", "RGB",
+                shafts_ ? gpu::download<vec4>(device_, shafts_.image()) : std::vector<vec4>(pixels, vec4(0)));
 
   auto normals = gpu::download<vec4>(device_, images_.seen.normal);
   const auto casterNormals = gpu::download<vec4>(device_, images_.casterNormal);

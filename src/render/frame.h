@@ -3,6 +3,7 @@
 
 #include "core/image.h"
 #include "core/stats.h"
+#include "render/air/shafts.h"
 #include "render/direct_light.h"
 #include "render/frame_data.h"
 #include "render/frame_resources.h"
@@ -17,6 +18,7 @@ struct RenderSettings {
   uvec2 size{640, 480};        // pixels
   uint32_t shadowMapSize = 0;  // texels along a side; 0: as many as pixels along the picture's longer side
   SightSettings sight;
+  ShaftSettings shafts;
 };
 
 // An object as it is drawn.
@@ -40,16 +42,18 @@ class Renderer {
   // Of the last frame: exposed, tone-mapped, sRGB, RGB.
   ByteImage picture() const;
 
-  // Of the last frame: R,G,B luminance (nit); direct.R,G,B and caustics.R,G,B, the
-  // parts of it that came from light that met no caster and from light that met one; depth.Z (m along the
-  // view, 0 where there is nothing) and normal.X,Y,Z of the nearest surface.
+  // Of the last frame: R,G,B luminance (nit); direct.R,G,B and caustics.R,G,B, the parts of it that came from
+  // light that met no caster and from light that met one; shafts.R,G,B, that from the air; depth.Z (m along
+  // the view, 0 where there is nothing) and normal.X,Y,Z of the nearest surface.
   Image layers();
 
   GpuScene& gpuScene() { return gpuScene_; }
+  const Shafts& shafts() const { return shafts_; }
 
  private:
   void place(const Scene& scene);
   void drawReceivers(gpu::CommandList& commands);
+  void illuminate(gpu::CommandList& commands);
   void light(gpu::CommandList& commands, const SeenImages& seen, const gpu::Region& region);
   void composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
                  const std::vector<const gpu::Image*>& targets);
@@ -64,6 +68,7 @@ class Renderer {
   FrameImages images_;
   SightPass sight_;
   DirectLight directLight_;
+  Shafts shafts_;
 
   // Of the frame being made.
   View view_{};

@@ -5,6 +5,7 @@
 #include "techniques/scene_data.h"
 
 #include "optics/emitter.h"
+#include "render/air/air_data.h"
 
 SHARED_BEGIN
 
@@ -26,7 +27,12 @@ struct SurfaceConstants {
 // A light and the projection that its shadow maps share: each map looks along `mapDepth`, with `aim` in its
 // middle.
 struct DirectConstants {
-  Emitter emitter;  // of a line: the first of its points, with `direction` (m) from one to the next
+  // As those of Emitter; of a line: the first of its points, with `direction` (m) from one to the next.
+  vec3 position;
+  float coneScale;
+  vec3 direction;
+  float coneOffset;
+  vec3 power;
   vec3 mapX;  // dot(mapX, q) and dot(mapY, q), over the depth in a perspective: the place in a map, which
               // is 1 across; q goes from the light to the point, or from `aim` for a directional light
   float depthScale;  // what a map holds: depthScale + depthOffset / depth in a perspective, else
@@ -38,7 +44,8 @@ struct DirectConstants {
                     // perspective
   vec3 aim;         // m
   uint samples;     // points of a line
-  float goboScale;  // texels of the gobo over the tangent of the angle from the light's direction
+  vec2 goboTurn;    // of placeInGobo
+  BUFFER_ADDRESS(AirLights) air;  // the first; not there where there is no air
 };
 
 struct CompositeConstants {
@@ -49,5 +56,9 @@ struct CompositeConstants {
 };
 
 SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(nephroid::DirectConstants) <= 128);
+#endif
 
 #endif

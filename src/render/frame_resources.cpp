@@ -38,7 +38,7 @@ FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t heig
   return images;
 }
 
-FramePrograms createFramePrograms(gpu::Device& device, bool hasEmission) {
+FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& luminance) {
   gpu::RasterState receiver;
   receiver.colors = {{kFloats}, {kFloats}, {kFloats}};
   receiver.depthFormat = kDepth;
@@ -51,8 +51,11 @@ FramePrograms createFramePrograms(gpu::Device& device, bool hasEmission) {
                                                        shaders::receiver_frag, receiver, {{0, VK_TRUE}});
   for (const CasterTraits traits : {CasterTraits{false, false, false}, CasterTraits{true, false, false},
                                     CasterTraits{true, true, false}, CasterTraits{true, true, true}}) {
-    const std::vector<gpu::SpecializationConstant> choices{
-        {0, hasEmission}, {1, traits.areSeen}, {2, traits.reflect}, {3, traits.disperse}};
+    const std::vector<gpu::SpecializationConstant> choices{{0, luminance.hasEmission},
+                                                           {1, traits.areSeen},
+                                                           {2, traits.reflect},
+                                                           {3, traits.disperse},
+                                                           {4, luminance.hasAir}};
     programs.picture[traits] =
         gpu::createRasterProgram(device, "picture", shaders::whole_picture_vert, shaders::picture_frag,
                                  {.colors = {{kBytes}}}, choices);

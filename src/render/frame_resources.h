@@ -55,6 +55,12 @@ struct FramePrograms {
   std::map<CasterTraits, gpu::Program> layers;
 };
 
-FramePrograms createFramePrograms(gpu::Device& device, bool hasEmission);
+// What there is in a scene for luminance to come from besides lights on receivers.
+struct LuminanceTraits {
+  bool hasEmission = false;
+  bool hasAir = false;
+};
+
+FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& luminance);
 
 }  // namespace nephroid

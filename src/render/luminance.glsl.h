@@ -9,6 +9,7 @@ layout(constant_id = 0) const bool kHasEmission = false;  // does any receiver s
 layout(constant_id = 1) const bool kSeesCasters = false;  // may one be in front of a receiver here
 layout(constant_id = 2) const bool kReflects = false;     // with kSeesCasters: may glass reflect something
 layout(constant_id = 3) const bool kDisperses = false;    // with kSeesCasters
+layout(constant_id = 4) const bool kHasAir = false;
 layout(push_constant, scalar) uniform Constants {
   CompositeConstants constants;
 };
@@ -28,13 +29,15 @@ layout(set = 0, binding = 12) uniform texture2D blueAlbedo;
 layout(set = 0, binding = 13) uniform texture2D blueDirectLux;
 layout(set = 0, binding = 14) uniform texture2D blueCausticsLux;
 layout(set = 0, binding = 15) uniform texture2D blueThroughCaster;
+// With kHasAir: luminance of the air, and a the part of what is behind it that it lets through.
+layout(set = 0, binding = 16) uniform texture2D shafts;
 
 const float kInversePi = 0.318309886;
 
 struct Luminance {
   vec3 direct;    // by light that met no caster
   vec3 caustics;  // by light that met one
-  vec3 rest;
+  vec3 rest;      // of surfaces and the background
 };
 
 Luminance luminanceOf(vec4 albedo, vec3 directLight, vec3 causticsLight) {
@@ -51,7 +54,7 @@ void add(inout Luminance sum, vec3 factor, Luminance other) {
   sum.rest += factor * other.rest;
 }
 
-Luminance luminanceAt(ivec2 pixel) {
+Luminance surfaceAt(ivec2 pixel) {
   Luminance seen = luminanceOf(texelFetch(receiverAlbedo, pixel, 0), texelFetch(directLux, pixel, 0).rgb,
                                texelFetch(causticsLux, pixel, 0).rgb);
   if (!kSeesCasters) return seen;
@@ -75,4 +78,12 @@ Luminance luminanceAt(ivec2 pixel) {
         luminanceOf(texelFetch(reflectedAlbedo, pixel, 0), texelFetch(reflectedDirectLux, pixel, 0).rgb,
                     texelFetch(reflectedCausticsLux, pixel, 0).rgb));
   return sum;
+}
+
+// Dobashi 2002, eq. 1.
+Luminance luminanceAt(ivec2 pixel) {
+  const Luminance surface = surfaceAt(pixel);
+  if (!kHasAir) return surface;
+  const vec4 air = texelFetch(shafts, pixel, 0);
+  return Luminance(air.a * surface.direct, air.a * surface.caustics, air.a * surface.rest + air.rgb);
 }

@@ -4,6 +4,7 @@
 
 #include "beams/build.h"
 #include "beams/deposit.h"
+#include "scene/air.h"
 #include "scene/emitters.h"
 #include "scene/light_intensity.h"
 #include "transport/queries.h"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr uint32_t kShadowGrid = 4;  // points along a texel's side that look at each light
 
-vec3 directAt(const RayScene& rays, const std::vector<ShapedLight>& lights,
+vec3 directAt(const Scene& scene, const RayScene& rays, const std::vector<ShapedLight>& lights,
               const std::vector<Emitter>& emitters, vec3 point, vec3 normal) {
   const float margin = rays.selfIntersectionDistance();
   vec3 sum(0);
@@ -25,7 +26,8 @@ vec3 directAt(const RayScene& rays, const std::vector<ShapedLight>& lights,
                                                                : length(emitter.position - point);
     // A sensor may lie on a surface, so the first part of the way is not looked at.
     if (!rays.occluded({point, -direction, 10 * margin, distance - margin}))
-      sum += cosine * illuminance(lights[emitter.light], emitter, point);
+      sum += cosine * airTransmittance(scene, emitter, point) *
+             illuminance(lights[emitter.light], emitter, point);
   }
   return sum;
 }
@@ -54,7 +56,7 @@ SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor
             vec2(float(i % kShadowGrid) + 0.5f, float(i / kShadowGrid) + 0.5f) / float(kShadowGrid);
         const vec3 point = sensor.corner + sensor.u * ((float(column) + at.x) / float(sensor.resolution.x)) +
                            sensor.v * ((float(row) + at.y) / float(sensor.resolution.y));
-        sum += directAt(rays, lights, emitters, point, normal);
+        sum += directAt(scene, rays, lights, emitters, point, normal);
       }
       layer[std::size_t(row) * sensor.resolution.x + column] = sum / float(kShadowGrid * kShadowGrid);
     }

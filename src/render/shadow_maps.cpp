@@ -48,7 +48,7 @@ float nearestAlong(const PlacedObject& object, vec3 origin, vec3 axis) {
   return std::max(nearest, dot(object.sphere.center - origin, axis) - object.sphere.radius);
 }
 
-// A flat object with all others and the light on one side of it (a floor, a wall) shadows nothing.
+// A flat object with all others and the light on one side of it (a floor, a wall) shadows no other.
 bool canShadow(const PlacedObject& object, const std::vector<PlacedObject>& all, const Emitter& emitter) {
   if (!object.isFlat) return true;
   const vec3 origin = object.sphere.center;
@@ -148,13 +148,13 @@ mat4 worldToMap(const ShadowedLight& lit, const Emitter& emitter, uint32_t face)
 class Planner {
  public:
   Planner(const Scene& scene, const std::vector<MeshExtent>& extents, uint32_t resolution)
-      : resolution_(resolution) {
+      : resolution_(resolution), hasAir_(scene.medium.has_value()) {
     for (uint32_t i = 0; i < scene.objects.size(); ++i)
       if (!scene.meshOf(scene.objects[i]).positions.empty()) objects_.push_back(placed(scene, extents, i));
   }
 
-  ShadowedLight plan(const Light& light) {
-    const std::vector<Emitter> points = emittersOf(light);
+  ShadowedLight plan(const Light& light, uint32_t index) {
+    const std::vector<Emitter> points = emittersOf(light, index);
     ShadowedLight lit;
     lit.emitter = points.front();
     lit.samples = static_cast<uint32_t>(points.size());
@@ -163,8 +163,9 @@ class Planner {
         std::max(kFewestTexels, std::round(float(resolution_) / std::sqrt(float(lit.samples)))));
     shadowing_.clear();
     for (const PlacedObject& object : objects_)
-      if (std::ranges::any_of(points,
-                              [&](const Emitter& emitter) { return canShadow(object, objects_, emitter); }))
+      if (hasAir_ || std::ranges::any_of(points, [&](const Emitter& emitter) {
+            return canShadow(object, objects_, emitter);
+          }))
         shadowing_.push_back(object);
     if (shadowing_.empty()) return lit;
     sphere_ = boundsOf(shadowing_);
@@ -241,6 +242,7 @@ class Planner {
   }
 
   uint32_t resolution_;
+  bool hasAir_;  // which is shaded behind floors and walls too
   std::vector<PlacedObject> objects_;
   std::vector<PlacedObject> shadowing_;  // of the light being planned
   Sphere sphere_;
@@ -277,7 +279,7 @@ std::vector<ShadowedLight> planShadowMaps(const Scene& scene, const std::vector<
                                           uint32_t resolution) {
   Planner planner(scene, extents, resolution);
   std::vector<ShadowedLight> lights;
-  for (const Light& light : scene.lights) lights.push_back(planner.plan(light));
+  for (uint32_t i = 0; i < scene.lights.size(); ++i) lights.push_back(planner.plan(scene.lights[i], i));
   return lights;
 }
 

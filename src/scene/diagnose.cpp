@@ -130,7 +130,6 @@ void warnAboutScene(const Scene& scene, SceneReport& report) {
     warnings.push_back(counted(report.droppedTriangles, "triangle", "triangles") +
                        " without an area left out");
   }
-  if (scene.medium) warnings.push_back("the medium is drawn by --technique reference alone");
   for (const Material& material : scene.materials) {
     if (material.emission != vec3(0)) {
       warnings.push_back("the material \"" + material.name + "\" glows, but lights nothing else");

@@ -54,9 +54,9 @@ double integral(const std::vector<float>& angles, const Value& value) {
 }
 
 // What passes through a gobo toward `local`, ahead of the light: bilinear.
-vec3 goboTransmittance(const Texture& gobo, float scale, vec3 local) {
+vec3 goboTransmittance(const Texture& gobo, vec2 turn, vec3 local) {
   const vec2 size(float(gobo.width), float(gobo.height));
-  const vec2 fromCentre = vec2(local.x, -local.y) * (scale / local.z);
+  const vec2 fromCentre = placeInGobo(turn, local);
   // Texels, from the centre of the upper left one.
   const vec2 at = glm::clamp(0.5f * size + fromCentre - 0.5f, vec2(0), size - 1.0f);
   const uvec2 low(at);
@@ -98,7 +98,9 @@ ShapedLight shapedLight(const Scene& scene, const Light& light) {
   if (light.goboTexture != kNone) {
     shaped.gobo = &scene.textures[light.goboTexture];
     const float radius = 0.5f * float(std::min(shaped.gobo->width, shaped.gobo->height));
-    shaped.goboScale = radius / std::tan(glm::radians(light.outerAngle));
+    const float rotation = glm::radians(light.goboRotation);
+    shaped.goboTurn =
+        radius / std::tan(glm::radians(light.outerAngle)) * vec2(std::cos(rotation), std::sin(rotation));
   }
   return shaped;
 }
@@ -115,7 +117,7 @@ vec3 lightIntensity(const ShapedLight& light, vec3 direction) {
   if (!(falloff > 0)) return vec3(0);
   vec3 intensity = light.intensity * falloff;
   if (light.profile) intensity *= profileFraction(*light.profile, local);
-  if (light.gobo) intensity *= goboTransmittance(*light.gobo, light.goboScale, local);
+  if (light.gobo) intensity *= goboTransmittance(*light.gobo, light.goboTurn, local);
   return intensity;
 }
 

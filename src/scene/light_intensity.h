@@ -15,7 +15,8 @@ struct ShapedLight {
   LightFrame frame{};
   const Profile* profile = nullptr;
   const Texture* gobo = nullptr;
-  float goboScale = 0;  // texels over the tangent of the angle from the axis
+  vec2 goboTurn{
+      0};  // texels over the tangent of the angle from the axis, times cosine and sine of its rotation
 
   // Not by its cone alone.
   bool isShaped() const { return profile || gobo; }

@@ -119,6 +119,7 @@ struct Light {
   float outerAngle = 45;         // degrees, half angle of none; 180: no cone
   uint32_t samples = 8;          // points a line is replaced by
   uint32_t goboTexture = kNone;  // what a spot's image lets through
+  float goboRotation = 0;        // degrees, clockwise for who looks along the light
   uint32_t profile = kNone;      // which shapes a spot; its peak is `intensity`
 };
 
@@ -145,11 +146,24 @@ struct Profile {
 
 enum class PhaseType { isotropic, henyeyGreenstein, nishita };
 
+// How dense the air is in a box, as a part of the most there may be: linear between the middles of its cells,
+// and 0 outside.
+struct DensityGrid {
+  std::string name;
+  vec3 corner{0};  // m, where all coordinates are lowest
+  vec3 size{1};    // m
+  uvec3 cells{1};
+  std::vector<float> densities;  // 0 to 1, [(z * cells.y + y) * cells.x + x]
+};
+
 struct Medium {
   float extinction = 0;  // 1/m
   float albedo = 0;      // scattering over extinction
   PhaseType phase = PhaseType::isotropic;
-  float g = 0;  // Henyey-Greenstein
+  float g = 0;                      // Henyey-Greenstein
+  float fogBase = 0;                // m along +y, up to where the air is as dense as `extinction` says
+  float fogHeight = 0;              // m, above there, in which it thins out by the factor e; 0: it never does
+  std::optional<DensityGrid> grid;  // multiplies that
 };
 
 // An illuminance meter. Texel (column i, row j) spans u (i..i+1)/width and v (j..j+1)/height from `corner`;

@@ -54,21 +54,6 @@ Environment readEnvironment(TomlTable table) {
   return environment;
 }
 
-Medium readMedium(TomlTable table) {
-  Medium medium;
-  const auto extinction = table.number("extinction", kNotNegative);
-  if (!extinction) table.fail("extinction", "is missing; a medium needs it (1/m)");
-  medium.extinction = static_cast<float>(*extinction);
-  medium.albedo = static_cast<float>(table.number("albedo", kFraction).value_or(1));
-  constexpr std::array kTypes{PhaseType::isotropic, PhaseType::henyeyGreenstein, PhaseType::nishita};
-  medium.phase = kTypes[table.choice("phase", {"isotropic", "henyey-greenstein", "nishita"})];
-  if (medium.phase == PhaseType::henyeyGreenstein) {
-    medium.g = static_cast<float>(table.number("g", {-0.999, 0.999}).value_or(0));
-  }
-  table.finish();
-  return medium;
-}
-
 void readSensors(std::vector<TomlTable> tables, Scene& scene) {
   for (TomlTable& table : tables) {
     Sensor sensor;

@@ -1,7 +1,10 @@
 #include <array>
+#include <numbers>
 
 #include "core/error.h"
 #include "core/image_io.h"
+#include "optics/light_shape.h"
+#include "scene/emitters.h"
 #include "scene/ies.h"
 #include "scene/scene_toml.h"
 
@@ -63,13 +66,61 @@ void readCone(TomlTable& table, Light& light) {
   }
 }
 
+// Steradians, each counted by the part of the light that the cone's falloff leaves there.
+float weightedSolidAngle(const Light& light) {
+  const SpotCone cone = coneOf(light);
+  const float width = 1 / cone.scale, cosOuter = -cone.offset * width;
+  const float soft = std::min(width, 1 - cosOuter);
+  return 2 * std::numbers::pi_v<float> * (soft * soft * soft / (3 * width * width) + 1 - cosOuter - soft);
+}
+
+// Another cone for the same lumens: the falloff keeps its shape.
+void zoomTo(float outerAngle, Light& light) {
+  const float before = weightedSolidAngle(light);
+  light.innerAngle *= outerAngle / light.outerAngle;
+  light.outerAngle = outerAngle;
+  light.intensity *= before / weightedSolidAngle(light);
+}
+
+// As a moving head does: tilted about its horizontal axis (up is positive), then turned about +Y (to the
+// left, as seen from above anticlockwise, is positive).
+vec3 aimed(vec3 direction, float pan, float tilt) {
+  const vec3 right = lightFrame(direction).right;
+  return normalize(glm::angleAxis(glm::radians(pan), vec3(0, 1, 0)) *
+                   (glm::angleAxis(glm::radians(tilt), right) * direction));
+}
+
+// What may change in the course of a cue.
+void readCue(TomlTable& table, Light& light, double time) {
+  const auto at = [&](const char* key, Range range, double byDefault) {
+    return static_cast<float>(table.numberAt(key, range, time).value_or(byDefault));
+  };
+  constexpr Range kTurn{-36000, 36000};
+  light.direction = aimed(light.direction, at("pan", kTurn, 0), at("tilt", kTurn, 0));
+  light.goboRotation = at("gobo_rotation", kTurn, 0);
+  if (table.has("gobo_rotation") && light.goboTexture == kNone)
+    table.fail("gobo_rotation", "is there without a \"gobo\" to turn");
+  const auto zoom = table.numberAt("zoom", {0.01, 89}, time);
+  if (zoom && light.profile != kNone)
+    table.fail("zoom", "does not go with \"ies\", whose angles are those that were measured");
+  if (zoom) zoomTo(static_cast<float>(*zoom), light);
+}
+
+// Candela at the peak: given, those of the profile, or those of so many lumens in the cone.
+vec3 spotIntensity(TomlTable& table, const Light& light, const Scene& scene) {
+  const auto flux = table.numberOrRgb("flux", kNotNegative);  // lm
+  if (!flux && light.profile != kNone && !table.has("intensity"))
+    return vec3(scene.profiles[light.profile].peak);
+  if (!flux) return table.requiredNumberOrRgb("intensity", kNotNegative);
+  if (table.has("intensity")) table.fail("flux", "and \"intensity\" are both there; give one of them");
+  if (light.profile != kNone) table.fail("flux", "does not go with \"ies\"; give \"intensity\", its peak");
+  return *flux / weightedSolidAngle(light);
+}
+
 void readSpot(TomlTable& table, Light& light, Scene& scene) {
   light.position = table.requiredVector3("position");
   light.goboTexture = loadShared(table, "gobo", scene, &Light::goboTexture, scene.textures, loadGobo);
   light.profile = loadShared(table, "ies", scene, &Light::profile, scene.profiles, loadIes);
-  light.intensity = light.profile == kNone || table.has("intensity")
-                        ? table.requiredNumberOrRgb("intensity", kNotNegative)
-                        : vec3(scene.profiles[light.profile].peak);
   const auto direction = table.vector3("direction"), target = table.vector3("target");
   if (direction.has_value() == target.has_value()) {
     table.fail("direction", "or \"target\" must be there for a spot, and not both");
@@ -77,6 +128,8 @@ void readSpot(TomlTable& table, Light& light, Scene& scene) {
   light.direction = direction ? unitDirection(table, *direction, "direction")
                               : unitDirection(table, *target - light.position, "target");
   readCone(table, light);
+  light.intensity = spotIntensity(table, light, scene);
+  readCue(table, light, scene.time);
 }
 
 void readLine(TomlTable& table, Light& light) {
@@ -113,6 +166,9 @@ void readLights(std::vector<TomlTable> tables, Scene& scene) {
         readLine(table, light);
         break;
     }
+    const auto dimmer = static_cast<float>(table.numberAt("dimmer", {0, 1e6}, scene.time).value_or(1));
+    light.intensity *= dimmer;
+    light.illuminance *= dimmer;
     table.finish();
     scene.lights.push_back(light);
   }

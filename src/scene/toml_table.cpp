@@ -138,6 +138,33 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) {
   return result;
 }
 
+std::optional<TomlTable> TomlTable::table(const std::string& key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (!node->is_table()) fail(key, "must be a table");
+  return TomlTable(*node->as_table(), file_, name_ + " " + key);
+}
+
+std::optional<double> TomlTable::numberAt(const std::string& key, Range range, double time) {
+  const toml::node* node = find(key);
+  if (!node || !node->is_array()) return number(key, range);
+  std::vector<glm::dvec2> marks;  // time, value
+  for (const toml::node& element : *node->as_array()) {
+    const toml::array* pair = element.as_array();
+    if (!pair || pair->size() != 2) fail(key, "must be a number or a list of [time, value]");
+    marks.emplace_back(checked(key, *pair->get(0), kAnyNumber, false),
+                       checked(key, *pair->get(1), range, false));
+    if (marks.size() > 1 && !(marks.back().x > marks[marks.size() - 2].x))
+      fail(key, "has times that do not ascend; each must be later than the one before it");
+  }
+  if (marks.empty()) fail(key, "is an empty list; it must hold at least one [time, value]");
+  const auto next = std::ranges::find_if(marks, [&](const glm::dvec2& mark) { return mark.x >= time; });
+  if (next == marks.begin()) return next->y;
+  if (next == marks.end()) return marks.back().y;
+  const glm::dvec2 before = *(next - 1);
+  return glm::mix(before.y, next->y, (time - before.x) / (next->x - before.x));
+}
+
 std::string TomlTable::requiredText(const std::string& key) {
   const auto value = text(key);
   if (!value) missing(key);

@@ -38,6 +38,11 @@ class TomlTable {
   std::optional<vec3> numberOrRgb(const std::string& key, Range range);
   std::optional<uvec2> integers2(const std::string& key, Range range);
   std::vector<TomlTable> tables(const std::string& key);
+  std::optional<TomlTable> table(const std::string& key);
+
+  // A number, or what a list of [time, value] comes to at `time` (s): linear between the times, which ascend,
+  // and constant before the first and after the last.
+  std::optional<double> numberAt(const std::string& key, Range range, double time);
 
   // As above, where the key must be there.
   std::string requiredText(const std::string& key);

@@ -43,8 +43,8 @@ bool hasWaterOrSheet(const Scene& scene) {
                      [](const Object& object) { return object.water.has_value(); });
 }
 
-bool hasMedium(const Scene& scene) {
-  return scene.medium.has_value();
+bool hasMediumAndCaster(const Scene& scene) {
+  return scene.medium.has_value() && hasCaster(scene);
 }
 
 bool hasLightAndReceiver(const Scene& scene) {
@@ -65,7 +65,10 @@ std::span<const Omission> omissionsOfFrame() {
        "other casters in it, and of what goes through it nothing that was reflected where it could have gone "
        "on",
        hasGlass},
-      {"The air: the medium neither scatters light into shafts nor takes any away", hasMedium},
+      {"The air: what it scatters of light that met a caster, and takes of it on the way to receivers; what "
+       "it "
+       "scatters behind glass and in mirrors, and takes of what is seen there",
+       hasMediumAndCaster},
       {"The length of line lights: each is a row of points, in its light, its shadows and its caustics",
        hasLineLight},
       {"Shadow edges finer than two texels of a shadow map; there are as many texels as pixels along the "

@@ -38,6 +38,16 @@ std::span<const SettingField> settingFields() {
        "How far, in thousandths of the light on a caster, the bricks of a multi-resolution irradiance volume "
        "may be off the finest grid, which --volume-kilobytes gives the size of",
        &Settings::volumeError, 0, 1000, nullptr, true},
+      {"air-planes",
+       "Sampling planes of shafts of light on each ray; 0: as many as --air-error asks for, for each light",
+       &Settings::airPlanes, 0, 10000, nullptr},
+      {"air-subplanes",
+       "Sub-sample planes between two sampling planes, used everywhere; 0: as many as --air-error asks for, "
+       "used "
+       "where light changes",
+       &Settings::airSubplanes, 0, 256, nullptr},
+      {"air-error", "Mean error of shafts of light that planes are chosen for, in thousandths of their mean",
+       &Settings::airError, 1, 1000, nullptr},
   };
   return kFields;
 }

@@ -1,5 +1,6 @@
-// Everything a user may choose about how caustics are made. The member initialisers are the defaults; the
-// lists below give each its flag, range and help, so that the command line is made from them.
+// Everything a user may choose about how caustics and shafts of light are made. The member initialisers are
+// the defaults; the lists below give each its flag, range and help, so that the command line is made from
+// them.
 #pragma once
 
 #include <array>
@@ -62,6 +63,9 @@ struct TechniqueSettings {
   uint32_t volumePhotons = 200;    // thousands, for each light direction
   uint32_t harmonicOrder = 5;      // of spherical harmonics over light directions
   uint32_t volumeError = 20;       // thousandths of the light on a caster; multi-resolution alone
+  uint32_t airPlanes = 0;          // sampling planes of shafts; 0: as many as airError asks for
+  uint32_t airSubplanes = 0;       // sub-sample planes of each; 0: as many as airError asks for
+  uint32_t airError = 4;           // thousandths of shafts' mean luminance
 };
 
 inline const char* nameOf(Source source) {

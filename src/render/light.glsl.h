@@ -1,0 +1,124 @@
+// One light: what stands in its way, by its shadow maps, and how gobo and profile shape it.
+#include "render/frame_data.h"
+
+#include "optics/light_shape.h"
+
+layout(constant_id = 0) const uint kEmitterType = kEmitterPoint;
+// For each point: 0: nothing can shade; 1; or 6, the faces of a cube about the light: +x, -x, +y, -y, +z, -z.
+layout(constant_id = 1) const uint kMapCount = 1;
+layout(constant_id = 2) const bool kIsLine = false;
+layout(constant_id = 3) const bool kHasGobo = false;
+layout(constant_id = 4) const uint kProfileType = kNoProfile;  // else kProfileType...
+layout(constant_id = 5) const bool kHasAir = false;
+layout(push_constant, scalar) uniform Constants {
+  DirectConstants constants;
+};
+layout(set = 0, binding = 2) uniform sampler2DArray shadowMaps;
+layout(set = 0, binding = 3) uniform sampler2D gobo;
+// Row 0 and column 0: vertical and horizontal angles (degrees). The rest: parts of the peak, a row for each
+// horizontal angle.
+layout(set = 0, binding = 4) uniform sampler2D profile;
+
+// One of the light's points.
+Emitter emitterAt(vec3 origin) {
+  return Emitter(origin, kEmitterType, constants.direction, constants.coneScale, constants.power,
+                 constants.coneOffset, 0u);
+}
+
+// Where `offset`, a vector from the light, is in the face of a cube that looks along the largest part of it.
+vec3 projectedOnCube(vec3 offset, out uint face) {
+  const vec3 size = abs(offset);
+  if (size.x >= size.y && size.x >= size.z) {
+    face = offset.x > 0 ? 0u : 1u;
+    return vec3(offset.x > 0 ? offset.z : -offset.z, offset.y, size.x);
+  }
+  if (size.y >= size.z) {
+    face = offset.y > 0 ? 2u : 3u;
+    return vec3(offset.y > 0 ? -offset.z : offset.z, offset.x, size.y);
+  }
+  face = offset.z > 0 ? 4u : 5u;
+  return vec3(offset.z > 0 ? -offset.x : offset.x, offset.y, size.z);
+}
+
+// Place in a map and depth, before the division by it.
+vec3 projected(vec3 offset, float texels, out uint face) {
+  face = 0;
+  if (kMapCount == 1)
+    return vec3(dot(constants.mapX, offset), dot(constants.mapY, offset), dot(constants.mapDepth, offset));
+  const vec3 place = projectedOnCube(offset, face);
+  return vec3(place.xy / (constants.texelSize * texels), place.z);
+}
+
+// Where a map's middle is, for one of a light's points.
+vec2 middleOfMap(vec3 origin) {
+  if (!kIsLine || kMapCount == 0) return vec2(0);
+  const vec3 aim = constants.aim - origin;
+  return vec2(dot(constants.mapX, aim), dot(constants.mapY, aim)) / dot(constants.mapDepth, aim);
+}
+
+// The part of the light that a tent two texels wide finds unhindered at `offset` from the light, or from the
+// maps' aim where it comes from afar.
+float litPart(vec3 offset, vec2 middle, uint firstMap) {
+  const bool isPerspective = kEmitterType != kEmitterDirectional;
+  const float texels = float(textureSize(shadowMaps, 0).x);
+  uint face = 0;
+  const vec3 place = projected(offset, texels, face);
+  const float inverse = isPerspective ? 1 / place.z : 1;
+  const float depth = isPerspective ? constants.depthScale + constants.depthOffset * inverse
+                                    : place.z + constants.depthOffset;
+  // Outside a map nothing shades, and its border is empty.
+  const vec2 at = place.xy * inverse - middle + 0.5;
+  const vec4 isLit = step(vec4(min(depth, 1)), textureGather(shadowMaps, vec3(at, float(firstMap + face))));
+  const vec2 after = fract(at * texels - 0.5);
+  const vec2 columns = mix(isLit.wx, isLit.zy, after.x);
+  const float sum = mix(columns.x, columns.y, after.y);
+  return isPerspective && place.z <= 0 ? 1 : sum;
+}
+
+float verticalAngle(int i) {
+  return texelFetch(profile, ivec2(i + 1, 0), 0).r;
+}
+float horizontalAngle(int i) {
+  return texelFetch(profile, ivec2(0, i + 1), 0).r;
+}
+
+// As profileFraction in scene/light_intensity.cpp.
+float profileFraction(vec3 local) {
+  const ivec2 counts = textureSize(profile, 0) - 1;
+  const ProfileRange range = ProfileRange(vec2(verticalAngle(0), verticalAngle(counts.x - 1)),
+                                          vec2(horizontalAngle(0), horizontalAngle(counts.y - 1)));
+  const vec2 angles = profileAngles(kProfileType, range, local);
+  if (!profileHolds(kProfileType, range, angles)) return 0;
+  ivec2 low = ivec2(lowerAngle(range.vertical, counts.x, angles.x), 0);
+  while (low.x > 0 && angles.x < verticalAngle(low.x)) --low.x;
+  while (low.x + 2 < counts.x && angles.x > verticalAngle(low.x + 1)) ++low.x;
+  const vec2 verticals = vec2(verticalAngle(low.x), verticalAngle(low.x + 1));
+  vec2 part = vec2((angles.x - verticals.x) / (verticals.y - verticals.x), 0);
+  ivec2 next = ivec2(1, 0);
+  if (counts.y > 1) {
+    low.y = lowerAngle(range.horizontal, counts.y, angles.y);
+    while (low.y > 0 && angles.y < horizontalAngle(low.y)) --low.y;
+    while (low.y + 2 < counts.y && angles.y > horizontalAngle(low.y + 1)) ++low.y;
+    const vec2 horizontals = vec2(horizontalAngle(low.y), horizontalAngle(low.y + 1));
+    part.y = (angles.y - horizontals.x) / (horizontals.y - horizontals.x);
+    next.y = 1;
+  }
+  part = clamp(part, vec2(0), vec2(1));
+  const ivec2 at = low + 1;
+  return mix(
+      mix(texelFetch(profile, at, 0).r, texelFetch(profile, at + ivec2(1, 0), 0).r, part.x),
+      mix(texelFetch(profile, at + ivec2(0, next.y), 0).r, texelFetch(profile, at + next, 0).r, part.x),
+      part.y);
+}
+
+// What gobo and profile leave of the light that goes along `direction`, within the cone.
+vec3 shape(vec3 direction) {
+  const vec3 local = alongFrame(lightFrame(constants.direction), direction);
+  vec3 part = vec3(1);
+  if (kProfileType != kNoProfile) part *= profileFraction(local);
+  if (kHasGobo) {
+    const vec2 fromMiddle = placeInGobo(constants.goboTurn, local);
+    part *= textureLod(gobo, 0.5 + fromMiddle / vec2(textureSize(gobo, 0)), 0).rgb;
+  }
+  return part;
+}

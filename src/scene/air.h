@@ -1,0 +1,64 @@
+// The medium between the objects, as optics/ computes it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "optics/air.h"
+#include "optics/emitter.h"
+#include "optics/phase.h"
+#include "scene/density_grid.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+inline Air airOf(const Medium& medium) {
+  const float inverseFogHeight = medium.fogHeight > 0 ? 1 / medium.fogHeight : 0;
+  return {medium.extinction, medium.albedo, medium.g, medium.fogBase, inverseFogHeight};
+}
+
+// kPhase...
+inline uint phaseCode(const Medium& medium) {
+  switch (medium.phase) {
+    case PhaseType::henyeyGreenstein:
+      return kPhaseHenyeyGreenstein;
+    case PhaseType::nishita:
+      return kPhaseNishita;
+    default:
+      return kPhaseIsotropic;
+  }
+}
+
+// 1/sr; `cosine` between the ways light travels before and after.
+inline float phaseOf(const Medium& medium, float cosine) {
+  return phaseFunction(phaseCode(medium), medium.g, cosine);
+}
+
+inline bool scatters(const Medium& medium) {
+  return medium.extinction * medium.albedo > 0;
+}
+
+// 1/m
+inline float scatteringAt(const Medium& medium, vec3 point) {
+  return medium.extinction * medium.albedo *
+         (medium.grid ? densityAt(*medium.grid, point) : fogDensity(airOf(medium), point.y));
+}
+
+// Natural logarithm of what `length` (m, may be infinite) of the air along unit `direction` takes of light.
+inline float opticalDepth(const Medium& medium, vec3 from, vec3 direction, float length) {
+  const Air air = airOf(medium);
+  const float way = std::min(length, kFarthestAir);
+  if (medium.grid) return medium.extinction * densityAlong(*medium.grid, from, direction, way);
+  return air.extinction * meanFogDensity(air, from.y, from.y + way * direction.y) * way;
+}
+
+// The part of an emitter's light that the air lets come to `point`. Light from afar is as strong as it is
+// said to be until it meets something.
+inline float airTransmittance(const Scene& scene, const Emitter& emitter, vec3 point) {
+  if (!scene.medium || emitter.type == kEmitterDirectional) return 1;
+  const vec3 offset = point - emitter.position;
+  const float way = length(offset);
+  return way > 0 ? std::exp(-opticalDepth(*scene.medium, emitter.position, offset / way, way)) : 1.0f;
+}
+
+}  // namespace nephroid
