@@ -17,6 +17,7 @@ struct BenchOptions {
 
 void runBench(const BenchOptions& options) {
   if (!options.json.empty()) checkOutput(options.json, {});
+  if (!options.bench.curves.empty()) checkOutput(options.bench.curves, {}, {".svg"});
   Progress progress(progressDisplay(options.isQuiet));
   std::vector<PaperTable> tables;
   for (const std::string& name : options.names.empty() ? paperTableNames() : options.names) {
@@ -42,6 +43,10 @@ Command addBench(CLI::App& program) {
           "The folder of the papers' scenes. Left out: scenes/ of the source tree that the program is in, or "
           "where it was installed")
       ->type_name("DIR");
+  command
+      ->add_option("--curves", options->bench.curves,
+                   "Where to write the error and time of paper-4 against its planes, as SVG")
+      ->type_name("FILE.svg");
   addDevice(*command, options->bench.device);
   addQuiet(*command, options->isQuiet);
   return {command, [options] { runBench(*options); }};

@@ -37,6 +37,7 @@ struct PaperTable {
 struct PaperBench {
   std::filesystem::path scenes;  // the folder of the papers' scenes; empty: looked for by findPaperScenes
   std::string device;            // as gpu::DeviceOptions has it
+  std::filesystem::path curves;  // where to write curves as SVG, for tables that have them; empty: nowhere
 };
 
 std::vector<std::string> paperTableNames();

@@ -17,8 +17,6 @@ namespace {
 constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr uint32_t kGlimpseStride = 8;  // pixels
 constexpr uint32_t kFewestPlanes = 8, kMostPlanes = 256;
-// What shades a light may be thinner than a few pixels, and missed by glimpses.
-constexpr uint32_t kFewestPlanesInShade = 16;
 constexpr uint32_t kMostSubplanes = 64;
 
 // x and y of clip space are the parts of a ray along two rows of the projection, which stand on each other
@@ -132,7 +130,7 @@ AirPlanes Shafts::chosenPlanes(const DirectLight& directLight, const GpuScene& g
     return settings_.subplanes > 0 ? AirPlanes{planes, settings_.subplanes, 0}
                                    : adaptivePlanes(planes, settings_.error);
   };
-  uint32_t planes = directLight.key(light).mapCount > 0 ? kFewestPlanesInShade : kFewestPlanes;
+  uint32_t planes = kFewestPlanes;
   std::vector<vec4> seen = glimpse(directLight, gpuScene, depth, light, with(planes));
   for (; planes < kMostPlanes; planes *= 2) {
     const std::vector<vec4> finer = glimpse(directLight, gpuScene, depth, light, with(2 * planes));
