@@ -20,3 +20,6 @@ endif()
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 find_path(VOLK_INCLUDE_DIR volk.h REQUIRED)
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
+# Not required: without it no OpenVDB files are read.
+find_library(OPENVDB_LIBRARY openvdb)
+find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h)

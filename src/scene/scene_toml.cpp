@@ -95,7 +95,7 @@ Scene loadTomlScene(const std::filesystem::path& file, double time) {
   auto sensors = top.tables("sensor");
   top.finish();
   if (environment) scene.environment = readEnvironment(*environment);
-  if (medium) scene.medium = readMedium(*medium);
+  if (medium) scene.medium = readMedium(*medium, file.parent_path());
   readMaterials(std::move(materials), scene);
   const std::optional<Camera> imported = readObjects(std::move(objects), scene);
   readLights(std::move(lights), scene);

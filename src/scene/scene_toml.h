@@ -13,7 +13,7 @@ Scene loadTomlScene(const std::filesystem::path& file, double time);
 // The parts of it. Each adds to `scene` what its tables say.
 void readMaterials(std::vector<TomlTable> tables, Scene& scene);
 void readLights(std::vector<TomlTable> tables, Scene& scene);
-Medium readMedium(TomlTable table);
+Medium readMedium(TomlTable table, const std::filesystem::path& folder);
 
 // As above; gives the first camera that was imported.
 std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene);

@@ -1,8 +1,10 @@
 #include <array>
 
+#include "core/error.h"
 #include "optics/air.h"
 #include "scene/density_grid.h"
 #include "scene/scene_toml.h"
+#include "scene/vdb.h"
 
 namespace nephroid {
 namespace {
@@ -34,6 +36,22 @@ DensityGrid readNoise(TomlTable table) {
   return grid;
 }
 
+DensityGrid readGrid(TomlTable table, const std::filesystem::path& folder) {
+  const std::string file = table.requiredText("file"), name = table.text("name").value_or("");
+  const float scale = numberOr(table, "scale", kPositive, 1);
+  const vec3 translation = table.vector3("translation").value_or(vec3(0));
+  table.finish();
+  DensityGrid grid;
+  try {
+    grid = loadVdb(folder / file, name);
+  } catch (const InputError& error) {
+    table.fail("file", std::string("is not to be used: ") + error.what());
+  }
+  grid.corner = scale * grid.corner + translation;
+  grid.size *= scale;
+  return grid;
+}
+
 // Fog is taken into the cells, so that there is one density to ask for.
 void addFog(const Medium& medium, DensityGrid& grid) {
   const Air air{0, 0, 0, medium.fogBase, medium.fogHeight > 0 ? 1 / medium.fogHeight : 0};
@@ -46,7 +64,7 @@ void addFog(const Medium& medium, DensityGrid& grid) {
 
 }  // namespace
 
-Medium readMedium(TomlTable table) {
+Medium readMedium(TomlTable table, const std::filesystem::path& folder) {
   Medium medium;
   const auto extinction = table.number("extinction", kNotNegative);
   if (!extinction) table.fail("extinction", "is missing; a medium needs it (1/m)");
@@ -58,6 +76,10 @@ Medium readMedium(TomlTable table) {
   medium.fogHeight = numberOr(table, "fog_height", kPositive, 0);
   if (medium.fogHeight > 0) medium.fogBase = numberOr(table, "fog_base", kAnyNumber, 0);
   if (auto noise = table.table("noise")) medium.grid = readNoise(std::move(*noise));
+  if (auto grid = table.table("grid")) {
+    if (medium.grid) table.fail("grid", "and \"noise\" are both there; give one of them");
+    medium.grid = readGrid(std::move(*grid), folder);
+  }
   if (medium.grid) addFog(medium, *medium.grid);
   table.finish();
   return medium;
