@@ -158,6 +158,16 @@ TEST_F(CueFile, TurnsTiltsAndDims) {
   EXPECT_EQ(spotAt(2, cue).intensity, vec3(0));
 }
 
+TEST_F(CueFile, NamesTheLineOfAFileThatIsBroken) {
+  write("broken.png", "not a picture");
+  write("broken.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 2 three\n");
+  const std::string spot =
+      "[[light]]\ntype = \"spot\"\nposition = [0, 3, 0]\ndirection = [0, -1, 0]\nintensity = 1\n";
+  expectError(spot + "gobo = \"broken.png\"\n", {"wrong.toml:6", "\"gobo\"", "broken.png"});
+  expectError(spot + "ies = \"broken.ies\"\n", {"wrong.toml:6", "\"ies\"", "broken.ies:3"});
+  expectError(spot + "gobo = \"none.png\"\n", {"wrong.toml:6", "\"gobo\"", "none.png"});
+}
+
 TEST_F(CueFile, SaysWhatIsWrong) {
   const std::string spot = "[[light]]\ntype = \"spot\"\nposition = [0, 3, 0]\ndirection = [0, -1, 0]\n";
   expectError(spot + "intensity = 1\npan = [[0, 1], [0, 2]]\n", {":6", "\"pan\"", "ascend"});

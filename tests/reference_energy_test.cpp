@@ -94,7 +94,7 @@ TEST(Energy, WithoutReflectionIsLostToItAlone) {
 struct Landed final : PhotonVisitor {
   void landing(const PhotonSegment& segment, const Hit&, vec3 flux) override {
     all += double(flux.y);
-    if (!segment.isInAir) inGlass += double(flux.y);
+    if (!segment.isInAir()) inGlass += double(flux.y);
   }
   double all = 0, inGlass = 0;
 };

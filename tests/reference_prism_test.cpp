@@ -37,7 +37,7 @@ struct Leaving final : PhotonVisitor {
     const vec3& d = segment.ray.direction;
     const double turned = incidence() - kApex / 2 - std::atan2(double(d.y), double(d.x));
     // Light through the base goes up.
-    if (segment.metCaster && segment.isInAir && segment.ray.origin.x > 0 && d.y < 0)
+    if (segment.metCaster && segment.isInAir() && segment.ray.origin.x > 0 && d.y < 0)
       angles.emplace_back(turned, segment.band);
   }
   std::vector<std::pair<double, uint32_t>> angles;

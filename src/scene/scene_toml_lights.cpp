@@ -41,7 +41,11 @@ uint32_t loadShared(TomlTable& table, const char* key, const Scene& scene, uint3
     table.fail(key, "names \"" + path.string() + "\", which is not there");
   for (const Light& other : scene.lights)
     if (other.*index != kNone && loaded[other.*index].name == path.string()) return other.*index;
-  loaded.push_back(load(path));
+  try {
+    loaded.push_back(load(path));
+  } catch (const InputError& wrong) {
+    table.fail(key, std::string("is not to be used: ") + wrong.what());
+  }
   return static_cast<uint32_t>(loaded.size() - 1);
 }
 
