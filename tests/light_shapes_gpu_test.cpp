@@ -6,6 +6,7 @@
 
 #include "gpu_fixture.h"
 #include "render/frame.h"
+#include "render/technique_meter.h"
 #include "scene/ies.h"
 #include "scene/light_intensity.h"
 #include "scene/load.h"
@@ -185,6 +186,35 @@ TEST_F(LightShapes, AllLumensOfMeasuredLampsArrive) {
     // A pixel's middle stands for all of it, over which a profile of a few degrees bends.
     EXPECT_NEAR(lumens, expected, 2e-3 * expected) << entry.path();
   }
+}
+
+// A technique's planes hold what the beams bring, gobo or not.
+TEST_F(LightShapes, ACausticOfAGoboHasTheFluxOfItsBeams) {
+  Scene scene;
+  scene.materials = {{.name = "glass", .type = MaterialType::dielectric}, {.name = "floor"}};
+  scene.meshes = {makeSphere(0.4f, {.segments = 48}), makePlane({8, 8})};
+  scene.objects.push_back({"ball", 0, 0, {vec3(0, 0.7f, 0), quat(1, 0, 0, 0), 1}, std::nullopt});
+  scene.objects.push_back({"floor", 1, 1, {}, std::nullopt});
+  Light light = spot(24);
+  light.position = {-0.6f, 2.4f, 0.3f};
+  light.direction = normalize(vec3(0, 0.7f, 0) - light.position);
+  light.goboTexture = 0;
+  scene.lights.push_back(light);
+  scene.textures.push_back(randomGobo(40, 40));
+  scene.sensors.push_back({"floor", {-0.6f, 0, -0.7f}, {1.4f, 0, 0}, {0, 0, 1.4f}, uvec2(64)});
+  TechniqueSettings settings;
+  settings.source = Source::traced;
+  Progress progress;
+  Stats stats;
+  TechniqueMeter meter(device(), scene, scene.sensors[0], settings, progress, stats);
+  const SensorLayer byTechnique = meter.read();
+  const RayScene rays(scene);
+  const SensorLayer byBeams = measureBeams(scene, rays, TracedSource(scene, rays), scene.sensors[0],
+                                           settings.paths, settings.refineDepth, progress, stats);
+  glm::dvec3 technique(0), beams(0);
+  for (const vec3 lux : byTechnique) technique += glm::dvec3(lux);
+  for (const vec3 lux : byBeams) beams += glm::dvec3(lux);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(technique[c] / beams[c], 1, 0.01);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include <glm/gtx/quaternion.hpp>
 
 #include "beams/build.h"
+#include "quantised_source.h"
 #include "render/measure.h"
 #include "scene/emitters.h"
-#include "scene/mesh_checks.h"
 #include "scene/shapes.h"
 #include "techniques/planes/plan.h"
 #include "transport/queries.h"
@@ -41,42 +41,6 @@ Scene ballOverFloor() {
 }
 
 const Sensor kFloor{"floor", {-2, 0, -0.75f}, {1.5f, 0, 0}, {0, 0, 1.5f}, {128, 128}};
-
-float quantised(float value) {
-  return std::round(glm::clamp(value, 0.0f, 1.0f) * 65535.0f) / 65535.0f;
-}
-
-// Traced rays at the vertices, kept in as many bits as a table keeps them in.
-class QuantisedSource : public TransportSource {
- public:
-  QuantisedSource(const Scene& sceneOf, const TracedSource& tracedOf, bool isExactOf)
-      : scene(sceneOf), traced(tracedOf), isExact(isExactOf) {}
-
-  void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const override {
-    traced.vertexRays(query, rays);
-    if (isExact) return;
-    const Object& object = scene.objects[query.object];
-    const auto [low, high] = boundingBox(scene.meshOf(object));
-    for (OutgoingRay& ray : rays) {
-      vec3 place = (object.placement.inversePoint(ray.position) - low) / (high - low);
-      for (int i = 0; i < 3; ++i) place[i] = quantised(place[i]);
-      ray.position = object.placement.point(low + place * (high - low));
-      const vec2 square = octahedralFromDirection(object.placement.inverseDirection(ray.direction));
-      ray.direction =
-          object.placement.direction(directionFromOctahedral({quantised(square.x), quantised(square.y)}));
-      ray.transmittance = vec3(quantised(ray.transmittance.x));
-    }
-  }
-  bool refines() const override { return false; }
-  OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override {
-    return traced.rayAt(query, point);
-  }
-
- private:
-  const Scene& scene;
-  const TracedSource& traced;
-  bool isExact;
-};
 
 TEST(TableSource, ItsBitsChangeTheImageByLessThanOnePercent) {
   const Scene scene = ballOverFloor();

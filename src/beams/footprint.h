@@ -162,13 +162,11 @@ SHARED_FUNCTION float tentBefore(float s, float peak) {
 
 // Where along a line (0 at its start, 1 at its end) it lies in the slab from `low` to `low` + 1, by its
 // coordinate across the slab: `start`, and `along` from end to end. Slabs side by side share the line out
-// without gap or overlap. Empty (first > last) where it is never there.
+// without gap or overlap. Of no length where it is never there.
 SHARED_FUNCTION vec2 lineInSlab(float start, float along, float low) {
-  bool isInside = floor(start) == low;
+  if (along == 0.0f) return vec2(floor(start) == low ? 0.0f : 1.0f, 1.0f);
   float a = (low - start) / along;
   float b = (low + 1.0f - start) / along;
-  if (along == 0.0f) a = isInside ? 0.0f : 1.0f;
-  if (along == 0.0f) b = isInside ? 1.0f : 1.0f;
   return vec2(min(a, b), max(a, b));
 }
 

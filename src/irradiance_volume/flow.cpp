@@ -92,7 +92,9 @@ Moves solve(const Lattice& lattice, const Sums& sums) {
   for (const mat3& m : sums.across) trace += (m[0][0] + m[1][1] + m[2][2]) / 3;
   const float smoothness = kSmoothness * trace / float(lattice.count());
   for (std::size_t way = 0; way < 2; ++way) {
-    std::vector<vec3> now(lattice.count(), vec3(0)), next = now;
+    std::vector<vec3>& now = moves[way];
+    now.assign(lattice.count(), vec3(0));
+    std::vector<vec3> next = now;
     for (int round = 0; round < kSmoothings && smoothness > 0; ++round) {
       for (std::size_t i = 0; i < now.size(); ++i) {
         const uvec3 node = lattice.node(i);
@@ -112,7 +114,6 @@ Moves solve(const Lattice& lattice, const Sums& sums) {
       }
       std::swap(now, next);
     }
-    moves[way] = std::move(now);
   }
   return moves;
 }

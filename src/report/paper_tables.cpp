@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "report/paper_3.h"
 #include "report/paper_4.h"
+#include "report/paper_5.h"
 #include "report/papers_1_2.h"
 #include "report/table_times.h"
 #include "scene/shapes.h"
@@ -48,10 +49,11 @@ struct Entry {
   const char* name;
   PaperTable (*measure)(const PaperBench&, Progress&);
 };
-constexpr std::array<Entry, 4> kTables{{{"light-transport-table", lightTransportTables},
+constexpr std::array<Entry, 5> kTables{{{"light-transport-table", lightTransportTables},
                                         {"papers-1-2", measurePapers1And2},
                                         {"paper-3", measurePaper3},
-                                        {"paper-4", measurePaper4}}};
+                                        {"paper-4", measurePaper4},
+                                        {"paper-5", measurePaper5}}};
 
 // A line for each row, and beside it for each quantity what the paper has, what is asked for (where something
 // is), what is measured here and how many times as good as asked that is.

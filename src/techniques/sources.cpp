@@ -67,8 +67,13 @@ std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const Techn
 }
 
 SceneTransport::SceneTransport(const Scene& scene, const TechniqueSettings& settingsToUse,
-                               Progress& progressToShow)
-    : settings(settingsToUse), progress(progressToShow), now(scene), rays(now), traced(now, rays) {}
+                               Progress& progressToShow, SourceMaker maker)
+    : settings(settingsToUse),
+      progress(progressToShow),
+      now(scene),
+      rays(now),
+      traced(now, rays),
+      makeSource(std::move(maker)) {}
 
 void SceneTransport::place(const Scene& scene) {
   now.time = scene.time;
@@ -80,9 +85,9 @@ void SceneTransport::place(const Scene& scene) {
 }
 
 const TransportSource& SceneTransport::source() {
-  if (settings.source == Source::traced) return traced;
-  if (!table) table = makeTableSource(now, settings, traced, progress);
-  return *table;
+  if (!makeSource && settings.source == Source::traced) return traced;
+  if (!made) made = makeSource ? makeSource(now, traced) : makeTableSource(now, settings, traced, progress);
+  return *made;
 }
 
 }  // namespace nephroid

@@ -1,6 +1,7 @@
 // Where a technique's outgoing rays come from, as the settings ask for it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -26,14 +27,17 @@ std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const Techn
 // How light, and sight, goes through the casters of a scene that moves.
 class SceneTransport {
  public:
-  // Settings and progress must outlive it.
-  SceneTransport(const Scene& scene, const TechniqueSettings& settings, Progress& progress);
+  using SourceMaker = std::function<std::unique_ptr<TransportSource>(const Scene&, const TracedSource&)>;
+
+  // Settings and progress must outlive it. With `maker` the source is that one's, whatever the settings say.
+  SceneTransport(const Scene& scene, const TechniqueSettings& settings, Progress& progress,
+                 SourceMaker maker = {});
 
   // Moves all to where `scene` has it, with the objects and meshes that this was made with.
   void place(const Scene& scene);
 
   const Scene& scene() const { return now; }
-  // What the settings ask for. Tables are found or made when it is first called.
+  // Tables are found or made when it is first called.
   const TransportSource& source();
   const RayScene& rayScene() const { return rays; }
   MediumStack mediaAround(const Emitter& emitter) const { return traced.mediaAround(emitter); }
@@ -44,7 +48,8 @@ class SceneTransport {
   Scene now;  // the sources look at it, and it stays where it is
   RayScene rays;
   TracedSource traced;
-  std::unique_ptr<TransportSource> table;
+  SourceMaker makeSource;
+  std::unique_ptr<TransportSource> made;
 };
 
 }  // namespace nephroid

@@ -73,12 +73,29 @@ vec3 leastInSubgroup(vec3 v) {
   return v;
 }
 
+uint takeNext(inout uvec4 waiting) {
+  const uint next = subgroupBallotFindLSB(waiting) & (gl_SubgroupSize - 1);  // of none: undefined
+  const uint bit = ~(1u << (next % 32));
+  const uint word = next / 32;
+  waiting = uvec4(word == 0 ? waiting.x & bit : waiting.x, word == 1 ? waiting.y & bit : waiting.y,
+                  word == 2 ? waiting.z & bit : waiting.z, word == 3 ? waiting.w & bit : waiting.w);
+  return next;
+}
+
 // The threads' pixels, and the box of what they show.
 struct Quarter {
   ivec2 place;
   Pixel pixel;
   vec3 low;
   vec3 high;
+  // Where the receiver is as good as a plane: one pixel that stands for all, where in its pixels this one lies, and
+  // what takes its pixels to this one's.
+  bool isPlane;
+  Pixel plane;
+  vec2 onPlane;
+  mat2 fromPlane;
+  vec2 lowOnPlane;
+  vec2 highOnPlane;
   vec3 lux;
 };
 
@@ -90,39 +107,74 @@ Quarter quarterAt(uvec2 within) {
   const Pixel pixel = quarter.pixel;
   // Half a pixel to each side: the axes' duals are the steps.
   const float dualArea = dot(cross(pixel.axisU, pixel.axisV), pixel.normal);
-  const vec3 reach = 0.5 * (abs(cross(pixel.axisV, pixel.normal)) + abs(cross(pixel.normal, pixel.axisU))) / abs(dualArea);
+  const vec3 stepU = cross(pixel.axisV, pixel.normal) / dualArea, stepV = cross(pixel.normal, pixel.axisU) / dualArea;
+  const vec3 reach = 0.5 * (abs(stepU) + abs(stepV));
   const bool isThere = pixel.inverseArea != 0;
   quarter.low = leastInSubgroup(isThere ? pixel.point - reach : vec3(1e30));
   quarter.high = -leastInSubgroup(isThere ? -pixel.point - reach : vec3(1e30));
+
+  uvec4 there = subgroupBallot(isThere);
+  const uint chosen = takeNext(there);
+  const Pixel plane = Pixel(subgroupShuffle(pixel.point, chosen), subgroupShuffle(pixel.normal, chosen),
+                            subgroupShuffle(pixel.axisU, chosen), subgroupShuffle(pixel.axisV, chosen),
+                            subgroupShuffle(pixel.inverseArea, chosen));
+  const vec3 offset = pixel.point - plane.point;
+  quarter.plane = plane;
+  quarter.onPlane = vec2(dot(offset, plane.axisU), dot(offset, plane.axisV));
+  const bool isOff = dot(pixel.normal, plane.normal) < 0.9999 ||
+                     abs(dot(offset, plane.normal)) * sqrt(plane.inverseArea) > 0.01;  // pixels
+  quarter.isPlane = subgroupBallot(isThere && isOff) == uvec4(0);
+  const float planeDual = dot(cross(plane.axisU, plane.axisV), plane.normal);
+  const vec3 planeU = cross(plane.axisV, plane.normal) / planeDual, planeV = cross(plane.normal, plane.axisU) / planeDual;
+  quarter.fromPlane = mat2(dot(pixel.axisU, planeU), dot(pixel.axisV, planeU), dot(pixel.axisU, planeV), dot(pixel.axisV, planeV));
+  const vec2 halfSize = 0.5 * (abs(vec2(dot(stepU, plane.axisU), dot(stepU, plane.axisV))) +
+                           abs(vec2(dot(stepV, plane.axisU), dot(stepV, plane.axisV))));
+  quarter.lowOnPlane = leastInSubgroup(isThere ? vec3(quarter.onPlane - halfSize, 0) : vec3(1e30)).xy;
+  quarter.highOnPlane = -leastInSubgroup(isThere ? vec3(-quarter.onPlane - halfSize, 0) : vec3(1e30)).xy;
   return quarter;
 }
 
-// lux
-vec3 illuminanceBy(Beam beam, vec3 still, Pixel pixel) {
-  vec2 corners[3];
-  vec3 lit;
-  float steepest = 1, along = 0;
+// Where a beam crosses a receiver's tangent plane.
+struct Crossing {
+  vec2 corners[3];  // in pixels from the pixel's middle
+  vec3 lit;         // 1 where a corner ray comes so far
+  float cosine;     // mean of the corners'; none where a corner does not approach
+};
+
+Crossing crossingOf(Beam beam, Pixel pixel) {
+  Crossing crossing;
+  float steepest = 1, sum = 0;
   for (int i = 0; i < 3; ++i) {
     const float approach = -dot(beam.direction[i], pixel.normal);
     const vec3 ahead = pixel.point - beam.position[i];
     const float way = -dot(ahead, pixel.normal) / max(approach, 1e-4);
     const vec3 offset = way * beam.direction[i] - ahead;
-    corners[i] = vec2(dot(offset, pixel.axisU), dot(offset, pixel.axisV)) + 0.5;
+    crossing.corners[i] = vec2(dot(offset, pixel.axisU), dot(offset, pixel.axisV));
     const float tolerance = reachTolerance(beam.reach[i], length(offset));
-    lit[i] = way >= -tolerance && way <= beam.reach[i] + tolerance ? 1 : 0;
+    crossing.lit[i] = way >= -tolerance && way <= beam.reach[i] + tolerance ? 1 : 0;
     steepest = min(steepest, approach);
-    along += approach;
+    sum += approach;
   }
-  if (steepest < 1e-3 || lit == vec3(0)) return vec3(0);
+  crossing.cosine = steepest < 1e-3 || crossing.lit == vec3(0) ? 0 : sum / 3;
+  return crossing;
+}
+
+// In place of the beam's own cosine with the receiver.
+float cosineInStead(vec3 still, Crossing crossing, Pixel pixel) {
+  return kIsStill != 0 ? max(-dot(still, pixel.normal), 0) / max(crossing.cosine, 1e-3) : 1;
+}
+
+// lux
+vec3 illuminanceBy(Beam beam, vec3 still, Pixel pixel) {
+  const Crossing crossing = crossingOf(beam, pixel);
+  if (crossing.cosine == 0) return vec3(0);
   // Corners hidden by what stands before: the light fades toward them.
-  const vec2 middle = vec2(0.5);
-  const float all = doubledArea(corners[0], corners[1], corners[2]);
-  const vec3 weights = vec3(doubledArea(middle, corners[1], corners[2]), doubledArea(corners[0], middle, corners[2]),
-                            doubledArea(corners[0], corners[1], middle));
+  const vec2 a = crossing.corners[0], b = crossing.corners[1], c = crossing.corners[2];
+  const float all = doubledArea(a, b, c);
+  const vec3 weights = vec3(doubledArea(vec2(0), b, c), doubledArea(a, vec2(0), c), doubledArea(a, b, vec2(0)));
   const vec3 inside = clamp(weights * sign(all), vec3(0), vec3(abs(all)));
-  const float part = lit == vec3(1) ? 1 : dot(lit, inside) / max(dot(inside, vec3(1)), 1e-30);
-  const float cosine = kIsStill != 0 ? max(-dot(still, pixel.normal), 0) * 3 / along : 1;
-  return beam.flux * (shareInTexel(corners[0], corners[1], corners[2]) * part * cosine * pixel.inverseArea);
+  const float part = crossing.lit == vec3(1) ? 1 : dot(crossing.lit, inside) / max(dot(inside, vec3(1)), 1e-30);
+  return beam.flux * (shareInTexel(a + 0.5, b + 0.5, c + 0.5) * part * cosineInStead(still, crossing, pixel) * pixel.inverseArea);
 }
 
 Beam beamOfThread(Beam beam, uint thread) {
@@ -136,13 +188,29 @@ Beam beamOfThread(Beam beam, uint thread) {
   return own;
 }
 
-// `own` and `bounds` are a beam of this thread, one that `isReady`.
+// `own` and `bounds` are a beam of this thread, one that `isReady`. On a plane each thread finds where its beam
+// crosses that; beams partly in shadow, and those on other receivers, are crossed with each pixel.
 void lightQuarter(inout Quarter quarter, Beam own, BeamBounds bounds, vec3 still, bool isReady) {
-  uvec4 waiting = subgroupBallot(isReady && boundsMeetBox(bounds, quarter.low, quarter.high));
-  while (waiting != uvec4(0)) {
-    const uint next = findLSB(waiting.x);
+  const bool meets = isReady && boundsMeetBox(bounds, quarter.low, quarter.high);
+  const Crossing crossing = crossingOf(own, quarter.plane);
+  const vec2 lower = min(min(crossing.corners[0], crossing.corners[1]), crossing.corners[2]);
+  const vec2 upper = max(max(crossing.corners[0], crossing.corners[1]), crossing.corners[2]);
+  const bool isClear = quarter.isPlane && (crossing.cosine == 0 || crossing.lit == vec3(1));
+  const bool isOnPlane = crossing.cosine != 0 && all(lessThanEqual(lower, quarter.highOnPlane)) &&
+                         all(greaterThanEqual(upper, quarter.lowOnPlane));
+  const vec3 flux = own.flux * cosineInStead(still, crossing, quarter.plane);
+  uvec4 clear = subgroupBallot(meets && isClear && isOnPlane);
+  while (clear != uvec4(0)) {
+    const uint next = takeNext(clear);
+    const vec2 u = quarter.fromPlane * (subgroupBroadcast(crossing.corners[0], next) - quarter.onPlane);
+    const vec2 v = quarter.fromPlane * (subgroupBroadcast(crossing.corners[1], next) - quarter.onPlane);
+    const vec2 w = quarter.fromPlane * (subgroupBroadcast(crossing.corners[2], next) - quarter.onPlane);
+    quarter.lux += subgroupBroadcast(flux, next) * (shareInTexel(u + 0.5, v + 0.5, w + 0.5) * quarter.pixel.inverseArea);
+  }
+  uvec4 others = subgroupBallot(meets && !isClear);
+  while (others != uvec4(0)) {
+    const uint next = takeNext(others);
     quarter.lux += illuminanceBy(beamOfThread(own, next), kIsStill != 0 ? subgroupBroadcast(still, next) : vec3(0), quarter.pixel);
-    waiting.x &= waiting.x - 1;
   }
 }
 

@@ -1,0 +1,130 @@
+#include "report/paper_5.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include "core/stats.h"
+#include "render/frame.h"
+#include "report/papers_1_2.h"
+#include "scene/load.h"
+#include "scene/shapes.h"
+#include "techniques/registry.h"
+
+namespace nephroid {
+namespace {
+
+// Barczak and Olano, table 1 (what the hierarchy gains, %) and table 2 (frames a second with
+// shadow culling, and with the exact cosine as well), for water of 120, 160 and 200 squared.
+struct Pool {
+  const char* figure;
+  const char* scene;
+  std::array<double, 3> gain;
+  std::array<double, 3> shadowCulling;
+  std::array<double, 3> vectors;
+};
+constexpr std::array<Pool, 4> kPools{{
+    {"1, left", "paper5-pool", {63.35, 79.50, 85.44}, {7.33, 5.40, 4.00}, {5.58, 4.26, 3.27}},
+    {"1, centre", "paper5-treasure", {36.52, 49.89, 55.38}, {13.34, 9.32, 6.05}, {11.48, 8.51, 5.81}},
+    {"1, right", "paper5-slats", {112.26, 134.81, 143.31}, {6.55, 4.07, 2.59}, {6.34, 4.00, 2.54}},
+    {"3", "paper5-diver", {21.3, 32.41, 37.22}, {14.98, 11.50, 7.90}, {11.64, 9.44, 7.24}},
+}};
+constexpr std::array<uint32_t, 3> kGrids{120, 160, 200};
+
+constexpr int kWarmUpFrames = 1;  // which makes images and programs
+constexpr int kFrames = 3;
+constexpr uvec2 kSize(1024, 768);
+// Every beam asked for every block of pixels is too slow for whole pictures.
+constexpr uvec2 kSizeOfGain(128, 96);
+
+struct Timed {
+  double seconds = 0;
+  Stats stats;
+};
+
+Scene withGrid(Scene scene, uint32_t grid) {
+  for (Object& object : scene.objects) {
+    if (!object.water) continue;
+    object.water->grid = uvec2(grid);
+    scene.meshes[object.mesh] = makeWater(*object.water, 0);
+  }
+  return scene;
+}
+
+// Of frames in which the water moves.
+Timed timeFrames(gpu::Device& device, Scene scene, const TechniqueSettings& settings, uvec2 size,
+                 Progress& progress) {
+  Timed timed;
+  SceneTransport transport(scene, settings, progress);
+  const auto technique = makeTechnique({device, settings, transport, timed.stats});
+  Renderer renderer(device, transport, {.size = size}, *technique);
+  std::vector<double> seconds;
+  for (int frame = 0; frame < kWarmUpFrames + kFrames; ++frame) {
+    for (const Object& object : scene.objects)
+      if (object.water) scene.meshes[object.mesh] = makeWater(*object.water, frame / 60.0);
+    const auto start = std::chrono::steady_clock::now();
+    renderer.render(scene);
+    if (frame >= kWarmUpFrames)
+      seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  timed.seconds = median(seconds);
+  return timed;
+}
+
+double countOf(const Stats& stats, const std::string& name) {
+  const auto found = std::ranges::find(stats.counts, name, &std::pair<std::string, uint64_t>::first);
+  return found == stats.counts.end() ? kNoFigure : double(found->second);
+}
+
+void addRow(PaperTable& table, const Pool& view, std::size_t grid, const Scene& start, gpu::Device& device,
+            Progress& progress) {
+  const Scene scene = withGrid(start, kGrids[grid]);
+  const std::string name = std::string("figure ") + view.figure + " " + view.scene + ", " +
+                           std::to_string(kGrids[grid]) + " squared";
+  TechniqueSettings exact;
+  exact.technique = "light-volumes";
+  exact.source = Source::traced;
+  TechniqueSettings still = exact, flat = exact;
+  still.cosine = Cosine::stillWater;
+  flat.culling = Culling::flat;
+  const auto add = [&](const char* quantity, const char* unit, double paper, double ours, double asked) {
+    table.figures.push_back({name, quantity, unit, paper, ours, asked});
+  };
+  const Timed ofStill = timeFrames(device, scene, still, kSize, progress);
+  const Timed ofExact = timeFrames(device, scene, exact, kSize, progress);
+  add("still water's cosine", "1/s", view.shadowCulling[grid], 1 / ofStill.seconds, view.shadowCulling[grid]);
+  add("exact cosine", "1/s", view.vectors[grid], 1 / ofExact.seconds, view.vectors[grid]);
+  const double few = timeFrames(device, scene, exact, kSizeOfGain, progress).seconds;
+  const double all = timeFrames(device, scene, flat, kSizeOfGain, progress).seconds;
+  add("hierarchy's gain", "%", view.gain[grid], 100 * (all / few - 1), view.gain[grid]);
+  const Stats& stats = ofExact.stats;
+  add("volumes", "", kNoFigure, countOf(stats, "light_volumes"), kNoFigure);
+  add("tests", "", kNoFigure, countOf(stats, "bounds_tested"), kNoFigure);
+  add("culled", "", kNoFigure, countOf(stats, "bounds_culled"), kNoFigure);
+  add("drawn", "", kNoFigure, countOf(stats, "volumes_drawn"), kNoFigure);
+}
+
+}  // namespace
+
+PaperTable measurePaper5(const PaperBench& bench, Progress& progress) {
+  const std::filesystem::path folder = bench.scenes.empty() ? findPaperScenes() : bench.scenes;
+  std::vector<Scene> scenes;  // what is wrong with one is told before anything is measured
+  for (const Pool& view : kPools) scenes.push_back(loadScene(folder / (std::string(view.scene) + ".toml")));
+  gpu::Device device({.device = bench.device});
+  PaperTable table{
+      "paper-5",
+      "Paper 5, tables 1 and 2: 1024 x 768, moving water (the hierarchy's gain: whole frames of 128 x "
+      "96, against all beams asked for every block of pixels); on " +
+          device.info().name,
+      {}};
+  progress.begin("paper 5", kPools.size() * kGrids.size());
+  for (std::size_t i = 0; i < kPools.size(); ++i)
+    for (std::size_t grid = 0; grid < kGrids.size(); ++grid) {
+      addRow(table, kPools[i], grid, scenes[i], device, progress);
+      progress.advance();
+    }
+  progress.finish();
+  return table;
+}
+
+}  // namespace nephroid

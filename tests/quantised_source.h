@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/octahedral.h"
+#include "scene/mesh_checks.h"
+#include "transport/traced/traced_source.h"
+
+namespace nephroid {
+
+inline float quantised(float value) {
+  return std::round(glm::clamp(value, 0.0f, 1.0f) * 65535.0f) / 65535.0f;
+}
+
+// Traced rays at the vertices, kept in as many bits as a table keeps them in.
+class QuantisedSource : public TransportSource {
+ public:
+  QuantisedSource(const Scene& sceneOf, const TracedSource& tracedOf, bool isExactOf)
+      : scene(sceneOf), traced(tracedOf), isExact(isExactOf) {}
+
+  void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const override {
+    traced.vertexRays(query, rays);
+    if (isExact) return;
+    const Object& object = scene.objects[query.object];
+    const auto [low, high] = boundingBox(scene.meshOf(object));
+    for (OutgoingRay& ray : rays) {
+      vec3 place = (object.placement.inversePoint(ray.position) - low) / (high - low);
+      for (int i = 0; i < 3; ++i) place[i] = quantised(place[i]);
+      ray.position = object.placement.point(low + place * (high - low));
+      const vec2 square = octahedralFromDirection(object.placement.inverseDirection(ray.direction));
+      ray.direction =
+          object.placement.direction(directionFromOctahedral({quantised(square.x), quantised(square.y)}));
+      ray.transmittance = vec3(quantised(ray.transmittance.x));
+    }
+  }
+  bool refines() const override { return false; }
+  OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override {
+    return traced.rayAt(query, point);
+  }
+
+ private:
+  const Scene& scene;
+  const TracedSource& traced;
+  bool isExact;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,140 @@
+// What techniques by way of virtual planes draw, held against each other and against themselves.
+#include <algorithm>
+#include <cmath>
+
+#include "gpu_fixture.h"
+#include "quantised_source.h"
+#include "render/frame.h"
+#include "render/technique_meter.h"
+#include "scene/shapes.h"
+
+namespace nephroid {
+namespace {
+
+constexpr uvec2 kSize(320, 240);
+
+// A glass ball of 6,400 vertices over a floor, under a point light aside, as in Iwasaki 2005, figures 8 (a)
+// and 12, but past its focus where the light arrives.
+Scene ballOverFloor() {
+  Scene scene;
+  scene.camera = {.position = {-0.5f, 1.5f, 3}, .target = {-0.5f, 0, 0}, .verticalFov = 30};
+  scene.environment.ambient = vec3(0.5f);
+  scene.materials.resize(2);
+  scene.materials[0].type = MaterialType::dielectric;
+  scene.meshes = {makeSphere(0.5f, {.vertices = 6400}), makePlane({20, 20})};
+  scene.objects.resize(2);
+  scene.objects[0].placement.translation = {0, 1.6f, 0};
+  scene.objects[1].mesh = 1;
+  scene.objects[1].material = 1;
+  Light light;
+  light.position = {1, 4, 0};
+  light.intensity = vec3(100);
+  scene.lights = {light};
+  return scene;
+}
+
+class TechniquePicturesGpuTest : public GpuTest {
+ protected:
+  struct Drawn {
+    std::vector<float> caustics;  // nit
+    ByteImage picture;
+  };
+  Drawn draw(const Scene& scene, const char* technique, SceneTransport::SourceMaker maker = {}) {
+    TechniqueSettings settings;
+    settings.technique = technique;
+    settings.source = Source::traced;
+    Progress progress;
+    Stats stats;
+    SceneTransport transport(scene, settings, progress, std::move(maker));
+    const auto drawing = makeTechnique({device(), settings, transport, stats});
+    Renderer renderer(device(), transport, {.size = kSize}, *drawing);
+    renderer.render(scene);
+    const Image layers = renderer.layers();
+    return {*layers.find("caustics.G"), renderer.picture()};
+  }
+
+  std::vector<float> measure(const Scene& scene, const Sensor& sensor) {
+    TechniqueSettings settings;
+    settings.directions = 33;
+    Progress progress;
+    Stats stats;
+    std::vector<float> lux;
+    for (const vec3& texel : TechniqueMeter(device(), scene, sensor, settings, progress, stats).read())
+      lux.push_back(texel.y);
+    return lux;
+  }
+};
+
+struct Difference {
+  double flux = 0;  // of the second over the first
+  double mean = 0;  // of the differences' sizes, over the mean of the first
+};
+
+Difference differenceOf(const std::vector<float>& a, const std::vector<float>& b) {
+  double sumA = 0, sumB = 0, differences = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sumA += double(a[i]);
+    sumB += double(b[i]);
+    differences += std::abs(double(b[i]) - double(a[i]));
+  }
+  return {sumB / sumA, differences / sumA};
+}
+
+TEST_F(TechniquePicturesGpuTest, PlanesAcrossTheLightAndAcrossTheViewShowTheSame) {
+  const Scene scene = ballOverFloor();
+  const Difference difference =
+      differenceOf(draw(scene, "illumination-textures").caustics, draw(scene, "sliced-images").caustics);
+  EXPECT_NEAR(difference.flux, 1, 0.02);
+  EXPECT_LT(difference.mean, 0.05);
+}
+
+// Iwasaki 2005, figure 12: the bits that a table keeps rays in change no pixel by a hundredth of full scale.
+TEST_F(TechniquePicturesGpuTest, TheBitsOfATableChangeNoPixelByAHundredth) {
+  Scene scene = ballOverFloor();
+  scene.camera.exposure = 0.1f;
+  for (const char* technique : {"illumination-textures", "sliced-images"}) {
+    const auto drawn = [&](bool isExact) {
+      return draw(scene, technique,
+                  [&](const Scene& now, const TracedSource& traced) {
+                    return std::make_unique<QuantisedSource>(now, traced, isExact);
+                  })
+          .picture;
+    };
+    const ByteImage exact = drawn(true), quantised = drawn(false);
+    int largest = 0;
+    for (std::size_t i = 0; i < exact.bytes.size(); ++i)
+      largest = std::max(largest, std::abs(int(exact.bytes[i]) - int(quantised.bytes[i])));
+    EXPECT_LT(largest, 0.01 * 255) << technique;
+  }
+}
+
+// The points of a line light share planes, also where they shine on the caster from ways so far apart that
+// they take several sets.
+TEST_F(TechniquePicturesGpuTest, ALineIsItsPointsOfEqualShare) {
+  const Sensor sensor{"floor", {-3, 0, -2}, {4, 0, 0}, {0, 0, 4}, {16, 16}};
+  for (const float length : {0.5f, 6.0f}) {
+    Scene scene = ballOverFloor();
+    Light line = scene.lights[0];
+    line.type = LightType::line;
+    line.end = line.position + vec3(0, 0, length);
+    line.samples = 4;
+    scene.lights = {line};
+    const std::vector<float> together = measure(scene, sensor);
+    std::vector<float> sum(together.size(), 0);
+    for (uint32_t i = 0; i < line.samples; ++i) {
+      Light point = line;
+      point.type = LightType::point;
+      point.position = mix(line.position, line.end, (float(i) + 0.5f) / float(line.samples));
+      point.intensity = line.intensity / float(line.samples);
+      scene.lights = {point};
+      const std::vector<float> own = measure(scene, sensor);
+      for (std::size_t texel = 0; texel < sum.size(); ++texel) sum[texel] += own[texel];
+    }
+    const Difference difference = differenceOf(sum, together);
+    EXPECT_NEAR(difference.flux, 1, 0.01) << "length " << length;
+    EXPECT_LT(difference.mean, 0.05) << "length " << length;
+  }
+}
+
+}  // namespace
+}  // namespace nephroid
