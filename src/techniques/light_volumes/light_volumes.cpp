@@ -34,10 +34,10 @@ class LightVolumes final : public Technique {
     VkDeviceSize bytes = 0;
 
     template <class T>
-    void write(gpu::Device& device, const char* name, const std::vector<T>& values) {
+    void write(gpu::Device& on, const char* name, const std::vector<T>& values) {
       bytes = values.size() * sizeof(T);
-      gpu::ensureBuffer(device, upload, name, bytes, gpu::MemoryKind::upload);
-      gpu::ensureBuffer(device, onDevice, name, bytes);
+      gpu::ensureBuffer(on, upload, name, bytes, gpu::MemoryKind::upload);
+      gpu::ensureBuffer(on, onDevice, name, bytes);
       upload.write(values);
     }
     void copy(gpu::CommandList& commands) const { commands.copy(upload, onDevice, bytes); }
