@@ -68,7 +68,7 @@ TEST(Energy, InAClosedRoomIsReceivedOrAbsorbed) {
 
   Scene misty = room();
   addNested(misty);
-  misty.medium = Medium{0.2f, 0, PhaseType::isotropic, 0};
+  misty.medium = Medium{.extinction = 0.2f};
   expectKept(misty, true);
 }
 
@@ -160,7 +160,7 @@ TEST(Reference, OfASeedIsTheSameWhateverTheThreads) {
   Scene scene = room();
   addTintedBall(scene);
   addNested(scene);
-  scene.medium = Medium{0.05f, 0.9f, PhaseType::isotropic, 0};
+  scene.medium = Medium{.extinction = 0.05f, .albedo = 0.9f};
   scene.camera.position = {1.5f, 0.5f, 1.8f};
   ReferenceSettings settings;
   settings.size = {64, 48};
