@@ -14,7 +14,9 @@ constexpr double kExtinction = 0.15, kAlbedo = 0.8;
 struct Air {
   PhaseType type;
   double g;
-  Medium medium() const { return {float(kExtinction), float(kAlbedo), type, float(g)}; }
+  Medium medium() const {
+    return {.extinction = float(kExtinction), .albedo = float(kAlbedo), .phase = type, .g = float(g)};
+  }
   // 1/sr by the cosine of the angle that light is turned by.
   double phase(double cosine) const {
     if (type == PhaseType::nishita) return (1 + 9 * std::pow((1 + cosine) / 2, 8)) / (8 * double(kPi));
