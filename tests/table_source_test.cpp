@@ -8,11 +8,11 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtx/quaternion.hpp>
 
+#include "ball_over_floor.h"
 #include "beams/build.h"
 #include "quantised_source.h"
 #include "render/measure.h"
 #include "scene/emitters.h"
-#include "scene/shapes.h"
 #include "techniques/planes/plan.h"
 #include "transport/queries.h"
 #include "transport/table/entry.h"
@@ -22,28 +22,10 @@
 namespace nephroid {
 namespace {
 
-// A ball of 6,400 vertices over a floor, a point light aside: the scene of Iwasaki 2005, figures 8 (a)
-// and 12.
-Scene ballOverFloor() {
-  Scene scene;
-  scene.materials.resize(2);
-  scene.materials[0].type = MaterialType::dielectric;
-  scene.meshes = {makeSphere(0.5f, {.vertices = 6400}), makePlane({20, 20})};
-  scene.objects.resize(2);
-  scene.objects[0].placement.translation = {0, 1, 0};
-  scene.objects[1].mesh = 1;
-  scene.objects[1].material = 1;
-  Light light;
-  light.position = {3, 3.5f, 0};
-  light.intensity = vec3(100);
-  scene.lights = {light};
-  return scene;
-}
-
 const Sensor kFloor{"floor", {-2, 0, -0.75f}, {1.5f, 0, 0}, {0, 0, 1.5f}, {128, 128}};
 
 TEST(TableSource, ItsBitsChangeTheImageByLessThanOnePercent) {
-  const Scene scene = ballOverFloor();
+  const Scene scene = ballOverFloor(1, {3, 3.5f, 0});
   const RayScene rays(scene);
   const TracedSource traced(scene, rays);
   Progress progress;
@@ -69,7 +51,7 @@ TEST(TableSource, ItsBitsChangeTheImageByLessThanOnePercent) {
 }
 
 TEST(TableSource, MotionOfCasterReceiverAndLightTracesNoRay) {
-  Scene scene = ballOverFloor();
+  Scene scene = ballOverFloor(1, {3, 3.5f, 0});
   RayScene rays(scene);
   const TracedSource traced(scene, rays);
   Progress progress;
@@ -120,7 +102,7 @@ VertexLight vertexLight(const Scene& scene, const TransportSource& source, uint3
 
 // A second ball stands behind the first, in the light, and then a plate before both.
 TEST(TableSource, LightGoesOnThroughOtherCastersAndStopsAtWhatStandsBefore) {
-  Scene scene = ballOverFloor();
+  Scene scene = ballOverFloor(1, {3, 3.5f, 0});
   scene.meshes[0] = makeSphere(0.5f, {.vertices = 1600});
   scene.objects[1].placement.translation.y = -2;
   Object second = scene.objects[0];

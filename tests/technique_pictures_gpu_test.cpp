@@ -2,34 +2,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ball_over_floor.h"
 #include "gpu_fixture.h"
 #include "quantised_source.h"
 #include "render/frame.h"
 #include "render/technique_meter.h"
-#include "scene/shapes.h"
 
 namespace nephroid {
 namespace {
 
 constexpr uvec2 kSize(320, 240);
 
-// A glass ball of 6,400 vertices over a floor, under a point light aside, as in Iwasaki 2005, figures 8 (a)
-// and 12, but past its focus where the light arrives.
-Scene ballOverFloor() {
-  Scene scene;
+// Past the focus where the light arrives.
+Scene seenBall() {
+  Scene scene = ballOverFloor(1.6f, {1, 4, 0});
   scene.camera = {.position = {-0.5f, 1.5f, 3}, .target = {-0.5f, 0, 0}, .verticalFov = 30};
   scene.environment.ambient = vec3(0.5f);
-  scene.materials.resize(2);
-  scene.materials[0].type = MaterialType::dielectric;
-  scene.meshes = {makeSphere(0.5f, {.vertices = 6400}), makePlane({20, 20})};
-  scene.objects.resize(2);
-  scene.objects[0].placement.translation = {0, 1.6f, 0};
-  scene.objects[1].mesh = 1;
-  scene.objects[1].material = 1;
-  Light light;
-  light.position = {1, 4, 0};
-  light.intensity = vec3(100);
-  scene.lights = {light};
   return scene;
 }
 
@@ -81,7 +69,7 @@ Difference differenceOf(const std::vector<float>& a, const std::vector<float>& b
 }
 
 TEST_F(TechniquePicturesGpuTest, PlanesAcrossTheLightAndAcrossTheViewShowTheSame) {
-  const Scene scene = ballOverFloor();
+  const Scene scene = seenBall();
   const Difference difference =
       differenceOf(draw(scene, "illumination-textures").caustics, draw(scene, "sliced-images").caustics);
   EXPECT_NEAR(difference.flux, 1, 0.02);
@@ -90,7 +78,7 @@ TEST_F(TechniquePicturesGpuTest, PlanesAcrossTheLightAndAcrossTheViewShowTheSame
 
 // Iwasaki 2005, figure 12: the bits that a table keeps rays in change no pixel by a hundredth of full scale.
 TEST_F(TechniquePicturesGpuTest, TheBitsOfATableChangeNoPixelByAHundredth) {
-  Scene scene = ballOverFloor();
+  Scene scene = seenBall();
   scene.camera.exposure = 0.1f;
   for (const char* technique : {"illumination-textures", "sliced-images"}) {
     const auto drawn = [&](bool isExact) {
@@ -113,7 +101,7 @@ TEST_F(TechniquePicturesGpuTest, TheBitsOfATableChangeNoPixelByAHundredth) {
 TEST_F(TechniquePicturesGpuTest, ALineIsItsPointsOfEqualShare) {
   const Sensor sensor{"floor", {-3, 0, -2}, {4, 0, 0}, {0, 0, 4}, {16, 16}};
   for (const float length : {0.5f, 6.0f}) {
-    Scene scene = ballOverFloor();
+    Scene scene = seenBall();
     Light line = scene.lights[0];
     line.type = LightType::line;
     line.end = line.position + vec3(0, 0, length);

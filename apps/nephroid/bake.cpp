@@ -85,8 +85,8 @@ Command addBake(CLI::App& program) {
       ->type_name(joined(names, "|"))
       ->capture_default_str()
       ->group("Technique");
-  addPaths(*command, options->technique);
-  addRepresentation(*command, options->technique);
+  for (const ChoiceField& field : choiceFields())
+    if (field.isBaked) addChoice(*command, field, options->technique);
   for (const SettingField& field : settingFields())
     if (field.isBaked) addField(*command, field, options->technique, false);
   addLightRange(*command, options->range);

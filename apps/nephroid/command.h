@@ -49,14 +49,12 @@ void addDevice(CLI::App& command, std::string& device);
 void addQuiet(CLI::App& command, bool& isQuiet);
 void addRepeat(CLI::App& command, uint32_t& repeat);
 void addStats(CLI::App& command, std::filesystem::path& stats);
+void addChoice(CLI::App& command, const ChoiceField& field, TechniqueSettings& settings);
 // `isSensorKnown`: a plane may be put where the sensor is.
 void addField(CLI::App& command, const SettingField& field, TechniqueSettings& settings, bool isSensorKnown);
 // Which technique, and all that may be said of how it works; and the latter alone.
 void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown);
 void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown);
-// Some of these alone.
-void addRepresentation(CLI::App& command, TechniqueSettings& settings);
-void addPaths(CLI::App& command, TechniqueSettings& settings);
 
 // Throws, before any work is done, where `file` cannot be written, ends in none of `extensions` (none given:
 // any will do) or is the scene itself.

@@ -12,23 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <class Choice, std::size_t Count>
-void addChoice(CLI::App& command, const std::string& flag, Choice& choice,
-               const std::array<const char*, Count>& names, const std::string& help) {
-  const std::vector<std::string> all(names.begin(), names.end());
-  command
-      .add_option_function<std::string>(
-          flag,
-          [&choice, all](const std::string& value) {
-            choice = static_cast<Choice>(std::find(all.begin(), all.end(), value) - all.begin());
-          },
-          help)
-      ->check(oneOf(all))
-      ->type_name(joined(all, "|"))
-      ->default_str(nameOf(choice))
-      ->group("Technique");
-}
-
 }  // namespace
 
 std::string joined(const std::vector<std::string>& names, const std::string& between) {
@@ -173,33 +156,23 @@ void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorK
   addTechniqueSettings(command, settings, isSensorKnown);
 }
 
-void addRepresentation(CLI::App& command, TechniqueSettings& settings) {
-  addChoice(command, "--representation", settings.representation, kRepresentationNames,
-            "How an irradiance volume is kept: on a uniform grid around the light, on concentric shells "
-            "placed where the light changes, on a grid whose bricks are as fine as the light needs, "
-            "or as spherical harmonics over light directions");
-}
-
-void addPaths(CLI::App& command, TechniqueSettings& settings) {
-  addChoice(command, "--paths", settings.paths, kPathsNames,
-            "Light followed by refraction alone, or by reflection outside and inside as well");
+void addChoice(CLI::App& command, const ChoiceField& field, TechniqueSettings& settings) {
+  const std::vector<std::string> names(field.names.begin(), field.names.end());
+  command
+      .add_option_function<std::string>(
+          std::string("--") + field.flag,
+          [&settings, &field, names](const std::string& value) {
+            field.set(settings, uint32_t(std::ranges::find(names, value) - names.begin()));
+          },
+          field.help)
+      ->check(oneOf(names))
+      ->type_name(joined(names, "|"))
+      ->default_str(field.names[field.get(settings)])
+      ->group("Technique");
 }
 
 void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown) {
-  addChoice(command, "--source", settings.source, kSourceNames,
-            "Where the rays that leave a caster come from: a light transport table, or traced now");
-  addPaths(command, settings);
-  addChoice(command, "--interpolation", settings.interpolation, kInterpolationNames,
-            "Virtual planes that bend onto the receivers, or flat ones that receivers blend");
-  addChoice(command, "--culling", settings.culling, kCullingNames,
-            "Light volumes found down their hierarchy, or each of them asked for every block of pixels");
-  addChoice(command, "--cosine", settings.cosine, kCosineNames,
-            "Between light volumes and receivers: each one's own, or that of the light's mean direction, as "
-            "still water would have it");
-  addChoice(command, "--light-interpolation", settings.lightInterpolation, kLightInterpolationNames,
-            "Between the light directions of an irradiance volume: the nearest, the three around by their "
-            "weights, these turned to the light, or moved on from there as the caster moves light");
-  addRepresentation(command, settings);
+  for (const ChoiceField& field : choiceFields()) addChoice(command, field, settings);
   command
       .add_option(
           "--baked", settings.baked,

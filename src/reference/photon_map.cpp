@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "optics/box.h"
+
 namespace nephroid {
 
 PhotonMap::PhotonMap(std::vector<StoredPhoton> photons, float cell) : inverseCell(1 / cell), low(0), high(0) {
@@ -31,17 +33,7 @@ PhotonMap::PhotonMap(std::vector<StoredPhoton> photons, float cell) : inverseCel
 }
 
 vec2 PhotonMap::reach(vec3 origin, vec3 direction, float length, float radius) const {
-  vec2 part(0, sorted.empty() ? 0 : length);
-  for (int axis = 0; axis < 3; ++axis) {
-    const float toLow = low[axis] - radius - origin[axis], toHigh = high[axis] + radius - origin[axis];
-    if (direction[axis] == 0) {
-      if (toLow > 0 || toHigh < 0) return vec2(0);
-      continue;
-    }
-    const float a = toLow / direction[axis], b = toHigh / direction[axis];
-    part = {std::max(part.x, std::min(a, b)), std::min(part.y, std::max(a, b))};
-  }
-  return part;
+  return sorted.empty() ? vec2(0) : wayThroughBox(low - radius, high + radius, origin, direction, length);
 }
 
 // Teschner et al. 2003.

@@ -150,20 +150,18 @@ void DirectLight::recordShadowMaps(gpu::CommandList& commands, const GpuScene& g
 
 void DirectLight::record(gpu::CommandList& commands, const GpuScene& gpuScene, const ReceiverPoints& points,
                          const gpu::Image& lux) {
-  const bool isAll = points.region.size.x == 0 || points.region.size.y == 0;
-  commands.render(
-      {.colors = {{&lux, 0, vec4(0)}}, .region = isAll ? std::nullopt : std::optional(points.region)}, [&] {
-        for (uint32_t i = 0; i < lightCount(); ++i) {
-          const auto [map, gobo, profile] = bindings(i, gpuScene);
-          commands.draw(programs_.at(key(i)), 3, 1, constants(i),
-                        {*points.position,
-                         *points.normal,
-                         map,
-                         gobo,
-                         profile,
-                         {air_.depths ? *air_.depths : maps_[i], air_.depths ? goboSampler_ : sampler_}});
-        }
-      });
+  commands.render({.colors = {{&lux, 0, vec4(0)}}, .region = points.region}, [&] {
+    for (uint32_t i = 0; i < lightCount(); ++i) {
+      const auto [map, gobo, profile] = bindings(i, gpuScene);
+      commands.draw(programs_.at(key(i)), 3, 1, constants(i),
+                    {*points.position,
+                     *points.normal,
+                     map,
+                     gobo,
+                     profile,
+                     {air_.depths ? *air_.depths : maps_[i], air_.depths ? goboSampler_ : sampler_}});
+    }
+  });
 }
 
 std::array<gpu::Binding, 3> DirectLight::bindings(uint32_t light, const GpuScene& gpuScene) const {

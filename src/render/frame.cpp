@@ -31,11 +31,12 @@ std::vector<PassTime> summedByName(const std::vector<PassTime>& passes) {
   return sums;
 }
 
-void clearRegion(gpu::CommandList& commands, const gpu::Image& image, const gpu::Region& region) {
-  if (region.size.x == 0)
-    commands.clear(image, vec4(0));
-  else
+void clearRegion(gpu::CommandList& commands, const gpu::Image& image,
+                 const std::optional<gpu::Region>& region) {
+  if (region)
     commands.render({.colors = {{&image, 0, vec4(0)}}, .region = region}, [] {});
+  else
+    commands.clear(image, vec4(0));
 }
 
 bool hasEmission(const Scene& scene) {
@@ -94,7 +95,7 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
 
 // What the frame has found is lit, and put together.
 void Renderer::illuminate(gpu::CommandList& commands) {
-  light(commands, images_.seen, {});
+  light(commands, images_.seen, std::nullopt);
   if (sight_.reflects()) light(commands, images_.reflected, sight_.region());
   if (sight_.disperses())
     for (const SeenImages& seen : images_.dispersed) light(commands, seen, sight_.region());
@@ -152,7 +153,8 @@ void Renderer::drawReceivers(gpu::CommandList& commands) {
       });
 }
 
-void Renderer::light(gpu::CommandList& commands, const SeenImages& seen, const gpu::Region& region) {
+void Renderer::light(gpu::CommandList& commands, const SeenImages& seen,
+                     const std::optional<gpu::Region>& region) {
   const ReceiverPoints points{&seen.position, &seen.normal, region};
   commands.pass("direct light", [&] {
     clearRegion(commands, seen.causticsLux, region);

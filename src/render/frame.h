@@ -54,7 +54,7 @@ class Renderer {
   void place(const Scene& scene);
   void drawReceivers(gpu::CommandList& commands);
   void illuminate(gpu::CommandList& commands);
-  void light(gpu::CommandList& commands, const SeenImages& seen, const gpu::Region& region);
+  void light(gpu::CommandList& commands, const SeenImages& seen, const std::optional<gpu::Region>& region);
   void composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
                  const std::vector<const gpu::Image*>& targets);
   void ensureImages();

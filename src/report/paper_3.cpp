@@ -3,27 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <optional>
 
-#include "core/error.h"
-#include "core/stats.h"
 #include "gpu/command_list.h"
 #include "gpu/transfer.h"
-#include "render/frame.h"
+#include "report/frame_bench.h"
 #include "report/paper_3_errors.h"
-#include "report/papers_1_2.h"
+#include "report/paper_scenes.h"
 #include "report/volume_sensor.h"
 #include "scene/load.h"
 #include "scene/shapes.h"
-#include "techniques/registry.h"
 
 namespace nephroid {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kWarmUpFrames = 3;
-constexpr int kFrames = 15;
+constexpr FrameBench::Counts kCounts{.warmUps = 3, .frames = 15};
 constexpr int kLookUps = 50;
 constexpr uvec2 kPictureSize{360, 360};
 constexpr double kTimesFasterAsked = 4;
@@ -46,34 +41,6 @@ Scene load(const std::filesystem::path& folder, const std::string& name) {
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// What a scene's frames take.
-struct FrameTimes {
-  double seconds = 0;
-  double lookUpMilliseconds = 0;
-};
-
-FrameTimes timeFrames(gpu::Device& device, const Scene& scene, const TechniqueSettings& settings,
-                      Progress& progress) {
-  Stats stats;
-  SceneTransport transport(scene, settings, progress);
-  const auto technique = makeTechnique({device, settings, transport, stats});
-  RenderSettings render;
-  render.size = kPictureSize;
-  Renderer renderer(device, transport, render, *technique);
-  std::vector<double> seconds, lookUps;
-  for (int frame = 0; frame < kWarmUpFrames + kFrames; ++frame) {
-    const auto start = Clock::now();
-    const std::vector<PassTime> passes = renderer.render(scene);
-    if (frame < kWarmUpFrames) continue;
-    seconds.push_back(secondsSince(start));
-    double lookUp = 0;
-    for (const PassTime& pass : passes)
-      if (pass.name == "caustics") lookUp += pass.milliseconds;
-    lookUps.push_back(lookUp);
-  }
-  return {median(seconds), median(lookUps)};
 }
 
 TechniqueSettings volumeSettings(Representation representation) {
@@ -109,11 +76,12 @@ void addRates(PaperTable& table, const Row& row, const std::filesystem::path& fo
   const Scene scene = load(folder, row.scene);
   const auto add = [&](const char* kept, const TechniqueSettings& settings, double paper) {
     if (!device) return;
-    const FrameTimes times = timeFrames(*device, scene, settings, progress);
+    FrameBench frames(*device, scene, settings, {.size = kPictureSize}, progress);
+    const double seconds = frames.seconds(kCounts, scene);
     const std::string what = std::string(row.scene) + ", " + kept;
-    table.figures.push_back({what, "frame rate", "1/s", paper, 1 / times.seconds, kTimesFasterAsked * paper});
+    table.figures.push_back({what, "frame rate", "1/s", paper, 1 / seconds, kTimesFasterAsked * paper});
     if (settings.technique != "none")
-      table.figures.push_back({what, "look-up", "ms", kNoFigure, times.lookUpMilliseconds});
+      table.figures.push_back({what, "look-up", "ms", kNoFigure, frames.passMilliseconds("caustics")});
   };
   add("grid", volumeSettings(Representation::grid), row.grid);
   add("shells", volumeSettings(Representation::shells), row.shells);
@@ -149,18 +117,15 @@ double lookUpMilliseconds(gpu::Device& device, const Scene& scene, Progress& pro
   const gpu::Image normals =
       imageOf(device, "normals", std::vector<vec4>(points.size(), vec4(sensor.normal(), 0)));
   const gpu::Image caustics = imageOf(device, "caustics", std::vector<vec4>(points.size(), vec4(0)));
-  Stats stats;
-  GpuScene gpuScene(device, scene);
-  SceneTransport transport(scene, settings, progress);
-  const auto technique = makeTechnique({device, settings, transport, stats});
-  technique->update(gpuScene);
+  FrameBench frames(device, scene, settings, {.size = kPictureSize}, progress);
+  frames.renderer().render(scene);
   std::vector<double> seconds;
-  for (int frame = 0; frame < kWarmUpFrames + kLookUps; ++frame) {
+  for (int frame = 0; frame < kCounts.warmUps + kLookUps; ++frame) {
     const auto start = Clock::now();
     device.submitAndWait([&](gpu::CommandList& commands) {
-      technique->shade(commands, {&positions, &normals}, caustics);
+      frames.technique().shade(commands, {&positions, &normals}, caustics);
     });
-    if (frame >= kWarmUpFrames) seconds.push_back(secondsSince(start));
+    if (frame >= kCounts.warmUps) seconds.push_back(secondsSince(start));
   }
   return 1000 * *std::ranges::min_element(seconds);
 }
@@ -179,27 +144,21 @@ void addTriangles(PaperTable& table, const std::filesystem::path& folder, gpu::D
 }  // namespace
 
 PaperTable measurePaper3(const PaperBench& bench, Progress& progress) {
-  const std::filesystem::path folder = bench.scenes.empty() ? findPaperScenes() : bench.scenes;
-  std::optional<gpu::Device> device;
-  std::string on;
-  try {
-    device.emplace(gpu::DeviceOptions{.device = bench.device});
-    on = "on " + device->info().name;
-  } catch (const RuntimeFailure& none) {
-    on = std::string("without frame rates: ") + none.what();
-  }
+  const std::filesystem::path folder = paperScenes(bench);
+  BenchDevice device(bench);
   PaperTable table{"paper-3",
                    "Paper 3, table 1 and figure 11: 360 x 360 (theirs on 30 processors); errors are of the "
                    "illuminance on the floor, root mean square over its mean; " +
-                       on,
+                       device.on,
                    {}};
-  for (const Row& row : kRows) addRates(table, row, folder, device ? &*device : nullptr, progress);
-  if (device) {
+  for (const Row& row : kRows) addRates(table, row, folder, device.orNone(), progress);
+  if (gpu::Device* on = device.orNone()) {
     TechniqueSettings order15 = harmonicSettings(15);
     const Scene sphere = load(folder, "sphere");
+    FrameBench frames(*on, sphere, order15, {.size = kPictureSize}, progress);
     table.figures.push_back({"sphere, harmonics of order 15", "frame rate", "1/s", kNoFigure,
-                             1 / timeFrames(*device, sphere, order15, progress).seconds});
-    addTriangles(table, folder, *device, progress);
+                             1 / frames.seconds(kCounts, sphere)});
+    addTriangles(table, folder, *on, progress);
   }
   addMemoryErrors(table, folder, progress);
   addFluxes(table, folder);

@@ -34,7 +34,7 @@ VolumeSettings settingsFor(uint32_t representation, uint32_t kilobytes) {
 }
 
 const char* nameOfKept(uint32_t representation) {
-  return kRepresentationNames[representation];
+  return nameOf(Representation(representation));
 }
 
 ByteImage pictureOf(const SensorLayer& layer, uvec2 size) {
@@ -181,7 +181,7 @@ void addMotionErrors(PaperTable& table, const std::filesystem::path& scenes, Pro
       scene.lights[0].direction = turn * scene.lights[0].direction;
     }
     IrradianceVolume volume = volumeOf(scene, settingsFor(uint32_t(TechniqueSettings{}.representation), 360));
-    for (std::size_t i = 0; i < kLightInterpolationNames.size(); ++i) {
+    for (std::size_t i = 0; i < namesOf(LightInterpolation{}).size(); ++i) {
       double steps = 0, errors = 0, mean = 0;
       SensorLayer before;
       for (std::size_t frame = 0; frame < frames.size(); ++frame) {
@@ -192,7 +192,7 @@ void addMotionErrors(PaperTable& table, const std::filesystem::path& scenes, Pro
         mean += meanOf(truth[frame]) / kFrames;
         before = std::move(difference);
       }
-      const std::string what = name + ", light turning, " + kLightInterpolationNames[i];
+      const std::string what = name + ", light turning, " + nameOf(LightInterpolation(i));
       table.figures.push_back({what, "error", "%", kNoFigure, 100 * std::sqrt(errors) / mean});
       table.figures.push_back({what, "frame to frame", "%", kNoFigure, 100 * std::sqrt(steps) / mean});
     }

@@ -6,16 +6,14 @@
 #include <chrono>
 
 #include "core/atomic_file.h"
-#include "core/stats.h"
 #include "reference/lights.h"
 #include "reference/pinhole.h"
-#include "render/frame.h"
 #include "render/tone_mapping.h"
 #include "report/curves.h"
-#include "report/papers_1_2.h"
+#include "report/frame_bench.h"
+#include "report/paper_scenes.h"
 #include "scene/air.h"
 #include "scene/load.h"
-#include "techniques/registry.h"
 
 namespace nephroid {
 namespace {
@@ -55,18 +53,9 @@ class Bench {
   Drawn draw(const Scene& scene, const ShaftSettings& shafts, int frames = kFrames) const {
     TechniqueSettings settings;
     settings.technique = "none";
-    Stats stats;
-    SceneTransport transport(scene, settings, progress);
-    const auto technique = makeTechnique({device, settings, transport, stats});
-    Renderer renderer(device, transport, {.size = kSize, .shafts = shafts}, *technique);
-    std::vector<double> seconds;
-    for (int frame = 0; frame <= frames; ++frame) {
-      const auto start = std::chrono::steady_clock::now();
-      renderer.render(scene);
-      if (frame > 0)
-        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    }
-    Drawn drawn{renderer.layers(), {}, seconds.empty() ? 0 : median(seconds), renderer.shafts().planes()};
+    FrameBench bench(device, scene, settings, {.size = kSize, .shafts = shafts}, progress);
+    const double seconds = bench.seconds({.warmUps = 1, .frames = frames}, scene);
+    Drawn drawn{bench.renderer().layers(), {}, seconds, bench.renderer().shafts().planes()};
     drawn.levels = levelsOf(drawn.image, scene.camera.exposure);
     return drawn;
   }
@@ -134,7 +123,7 @@ std::string rowOf(const char* figure, const char* symbol, uint32_t count) {
 }  // namespace
 
 PaperTable measurePaper4(const PaperBench& bench, Progress& progress) {
-  const std::filesystem::path folder = bench.scenes.empty() ? findPaperScenes() : bench.scenes;
+  const std::filesystem::path folder = paperScenes(bench);
   const Scene ball = loadScene(folder / "paper4-spot.toml"), stage = loadScene(folder / "paper4-stage.toml");
   Scene spotAlone = ball;
   spotAlone.objects.clear();

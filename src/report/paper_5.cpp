@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
-#include "core/stats.h"
-#include "render/frame.h"
-#include "report/papers_1_2.h"
+#include "report/frame_bench.h"
+#include "report/paper_scenes.h"
 #include "scene/load.h"
 #include "scene/shapes.h"
-#include "techniques/registry.h"
 
 namespace nephroid {
 namespace {
@@ -31,8 +28,7 @@ constexpr std::array<Pool, 4> kPools{{
 }};
 constexpr std::array<uint32_t, 3> kGrids{120, 160, 200};
 
-constexpr int kWarmUpFrames = 1;  // which makes images and programs
-constexpr int kFrames = 3;
+constexpr FrameBench::Counts kCounts{.warmUps = 1, .frames = 3};
 constexpr uvec2 kSize(1024, 768);
 // Every beam asked for every block of pixels is too slow for whole pictures.
 constexpr uvec2 kSizeOfGain(128, 96);
@@ -54,21 +50,13 @@ Scene withGrid(Scene scene, uint32_t grid) {
 // Of frames in which the water moves.
 Timed timeFrames(gpu::Device& device, Scene scene, const TechniqueSettings& settings, uvec2 size,
                  Progress& progress) {
-  Timed timed;
-  SceneTransport transport(scene, settings, progress);
-  const auto technique = makeTechnique({device, settings, transport, timed.stats});
-  Renderer renderer(device, transport, {.size = size}, *technique);
-  std::vector<double> seconds;
-  for (int frame = 0; frame < kWarmUpFrames + kFrames; ++frame) {
+  FrameBench frames(device, scene, settings, {.size = size}, progress);
+  const double seconds = frames.seconds(kCounts, [&](int frame) {
     for (const Object& object : scene.objects)
       if (object.water) scene.meshes[object.mesh] = makeWater(*object.water, frame / 60.0);
-    const auto start = std::chrono::steady_clock::now();
-    renderer.render(scene);
-    if (frame >= kWarmUpFrames)
-      seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  timed.seconds = median(seconds);
-  return timed;
+    return scene;
+  });
+  return {seconds, frames.stats()};
 }
 
 double countOf(const Stats& stats, const std::string& name) {
@@ -107,7 +95,7 @@ void addRow(PaperTable& table, const Pool& view, std::size_t grid, const Scene& 
 }  // namespace
 
 PaperTable measurePaper5(const PaperBench& bench, Progress& progress) {
-  const std::filesystem::path folder = bench.scenes.empty() ? findPaperScenes() : bench.scenes;
+  const std::filesystem::path folder = paperScenes(bench);
   std::vector<Scene> scenes;  // what is wrong with one is told before anything is measured
   for (const Pool& view : kPools) scenes.push_back(loadScene(folder / (std::string(view.scene) + ".toml")));
   gpu::Device device({.device = bench.device});

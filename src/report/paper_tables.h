@@ -35,7 +35,7 @@ struct PaperTable {
 
 // Where and on what tables are measured.
 struct PaperBench {
-  std::filesystem::path scenes;  // the folder of the papers' scenes; empty: looked for by findPaperScenes
+  std::filesystem::path scenes;  // the folder of the papers' scenes; empty: looked for by paperScenes
   std::string device;            // as gpu::DeviceOptions has it
   std::filesystem::path curves;  // where to write curves as SVG, for tables that have them; empty: nowhere
 };

@@ -1,15 +1,11 @@
 #include "report/papers_1_2.h"
 
 #include <array>
-#include <chrono>
-#include <optional>
 
-#include "core/error.h"
-#include "core/stats.h"
-#include "render/frame.h"
+#include "report/frame_bench.h"
+#include "report/paper_scenes.h"
 #include "report/table_times.h"
 #include "scene/load.h"
-#include "techniques/registry.h"
 
 namespace nephroid {
 namespace {
@@ -46,8 +42,7 @@ constexpr std::array<Row, 14> kRows{{
 }};
 
 constexpr double kTimesFasterAsked = 5000;  // preprocessing
-constexpr int kWarmUpFrames = 2;            // which make images and programs
-constexpr int kFrames = 15;
+constexpr FrameBench::Counts kCounts{.warmUps = 2, .frames = 15};
 
 // Turned about the axis y through the origin, then moved.
 struct Motion {
@@ -83,25 +78,16 @@ Scene moved(const Scene& start, int frame) {
 }
 
 double framesPerSecond(gpu::Device& device, const Scene& scene, const Row& row, Progress& progress) {
-  TechniqueSettings settings;
-  Stats stats;
-  SceneTransport transport(scene, settings, progress);
-  const auto technique = makeTechnique({device, settings, transport, stats});
   RenderSettings render;
   render.sight.slices = row.slices;
-  Renderer renderer(device, transport, render, *technique);
-  progress.begin(std::string("frames of ") + row.scene, kWarmUpFrames + kFrames);
-  std::vector<double> seconds;
-  for (int frame = 0; frame < kWarmUpFrames + kFrames; ++frame) {
-    const Scene now = moved(scene, frame);
-    const auto start = std::chrono::steady_clock::now();
-    renderer.render(now);
-    if (frame >= kWarmUpFrames)
-      seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  FrameBench bench(device, scene, {}, render, progress);
+  progress.begin(std::string("frames of ") + row.scene, uint64_t(kCounts.warmUps + kCounts.frames));
+  const double seconds = bench.seconds(kCounts, [&](int frame) {
     progress.advance();
-  }
+    return moved(scene, frame);
+  });
   progress.finish();
-  return 1 / median(seconds);
+  return 1 / seconds;
 }
 
 void addRow(PaperTable& table, const Row& row, const Scene& scene, gpu::Device* device, Progress& progress) {
@@ -119,40 +105,19 @@ void addRow(PaperTable& table, const Row& row, const Scene& scene, gpu::Device* 
 
 }  // namespace
 
-std::filesystem::path findPaperScenes() {
-  const std::string needed = std::string(kRows[0].scene) + ".toml";
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  std::string looked;
-  for (const char* place : {"../share/nephroid/scenes", "../../scenes", "../../../scenes"}) {
-    const auto folder = (program / place).lexically_normal();
-    if (std::filesystem::is_regular_file(folder / needed, error)) return folder;
-    looked += (looked.empty() ? "" : ", ") + folder.string();
-  }
-  throw InputError("the papers' scenes are not there; looked in " + looked +
-                   " (name their folder with --scenes)");
-}
-
 PaperTable measurePapers1And2(const PaperBench& bench, Progress& progress) {
-  const std::filesystem::path folder = bench.scenes.empty() ? findPaperScenes() : bench.scenes;
+  const std::filesystem::path folder = paperScenes(bench);
   std::vector<Scene> scenes;  // what is wrong with one is told before anything is measured
   for (const Row& row : kRows) scenes.push_back(loadScene(folder / (std::string(row.scene) + ".toml")));
-  std::optional<gpu::Device> device;
-  std::string on;
-  try {
-    device.emplace(gpu::DeviceOptions{.device = bench.device});
-    on = "on " + device->info().name;
-  } catch (const RuntimeFailure& none) {
-    on = std::string("without frame rates: ") + none.what();
-  }
+  BenchDevice device(bench);
   PaperTable table{
       "papers-1-2",
       "Paper 1, table 1, and paper 2: 640 x 480, tables of 129 directions, light, casters, receivers and "
       "camera moving; " +
-          on,
+          device.on,
       {}};
   for (std::size_t i = 0; i < kRows.size(); ++i)
-    addRow(table, kRows[i], scenes[i], device ? &*device : nullptr, progress);
+    addRow(table, kRows[i], scenes[i], device.orNone(), progress);
   return table;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optics/box.h"
+
 namespace nephroid {
 namespace {
 
@@ -57,22 +59,8 @@ float densityAt(const DensityGrid& grid, vec3 point) {
              mix(row(low.y, high.z), row(high.y, high.z), part.y), part.z);
 }
 
-vec2 wayThrough(const DensityGrid& grid, vec3 from, vec3 direction, float length) {
-  vec2 part(0, length);
-  for (int axis = 0; axis < 3; ++axis) {
-    const float toLow = grid.corner[axis] - from[axis], toHigh = toLow + grid.size[axis];
-    if (direction[axis] == 0) {
-      if (toLow > 0 || toHigh < 0) return vec2(0);
-      continue;
-    }
-    const float a = toLow / direction[axis], b = toHigh / direction[axis];
-    part = {std::max(part.x, std::min(a, b)), std::min(part.y, std::max(a, b))};
-  }
-  return part;
-}
-
 float densityAlong(const DensityGrid& grid, vec3 from, vec3 direction, float length) {
-  const vec2 part = wayThrough(grid, from, direction, length);
+  const vec2 part = wayThroughBox(grid.corner, grid.corner + grid.size, from, direction, length);
   if (!(part.y > part.x)) return 0;
   const float cell = smallest(grid.size / vec3(grid.cells));
   const auto steps = static_cast<uint32_t>(std::ceil(2 * (part.y - part.x) / cell));

@@ -8,10 +8,6 @@ namespace nephroid {
 // Part of the densest, 0 to 1; 0 outside the grid.
 float densityAt(const DensityGrid& grid, vec3 point);
 
-// The part of a straight way that runs through the grid, from and to (m); empty where the second is not above
-// the first. `direction` is of unit length.
-vec2 wayThrough(const DensityGrid& grid, vec3 from, vec3 direction, float length);
-
 // Integral of densityAt (m) along a straight way, by two steps a cell.
 float densityAlong(const DensityGrid& grid, vec3 from, vec3 direction, float length);
 

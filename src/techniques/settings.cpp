@@ -1,8 +1,55 @@
 #include "techniques/settings.h"
 
+#include <type_traits>
+#include <utility>
+
 #include "irradiance_volume/harmonics.h"
 
 namespace nephroid {
+namespace {
+
+template <auto Member>
+ChoiceField choice(const char* flag, const char* help, bool isBaked = false) {
+  using Choice = std::remove_cvref_t<decltype(std::declval<TechniqueSettings>().*Member)>;
+  static constexpr auto kNames = namesOf(Choice{});
+  return {flag,
+          help,
+          kNames,
+          [](const TechniqueSettings& settings) { return uint32_t(settings.*Member); },
+          [](TechniqueSettings& settings, uint32_t place) { settings.*Member = Choice(place); },
+          isBaked};
+}
+
+}  // namespace
+
+std::span<const ChoiceField> choiceFields() {
+  using Settings = TechniqueSettings;
+  static const ChoiceField kFields[] = {
+      choice<&Settings::source>(
+          "source", "Where the rays that leave a caster come from: a light transport table, or traced now"),
+      choice<&Settings::paths>(
+          "paths", "Light followed by refraction alone, or by reflection outside and inside as well", true),
+      choice<&Settings::interpolation>(
+          "interpolation", "Virtual planes that bend onto the receivers, or flat ones that receivers blend"),
+      choice<&Settings::culling>(
+          "culling",
+          "Light volumes found down their hierarchy, or each of them asked for every block of pixels"),
+      choice<&Settings::cosine>("cosine",
+                                "Between light volumes and receivers: each one's own, or that of the light's "
+                                "mean direction, as still water would have it"),
+      choice<&Settings::lightInterpolation>(
+          "light-interpolation",
+          "Between the light directions of an irradiance volume: the nearest, the three around by their "
+          "weights, these turned to the light, or moved on from there as the caster moves light"),
+      choice<&Settings::representation>(
+          "representation",
+          "How an irradiance volume is kept: on a uniform grid around the light, on concentric shells "
+          "placed where the light changes, on a grid whose bricks are as fine as the light needs, "
+          "or as spherical harmonics over light directions",
+          true),
+  };
+  return kFields;
+}
 
 std::span<const SettingField> settingFields() {
   using Settings = TechniqueSettings;

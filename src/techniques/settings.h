@@ -28,19 +28,36 @@ enum class Culling { hierarchical, flat };
 // direction, which through still water is that of all of it (Barczak and Olano, 3.2).
 enum class Cosine { exact, stillWater };
 
-// In the order of the enumerators.
-inline constexpr std::array<const char*, 2> kSourceNames{"table", "traced"};
-inline constexpr std::array<const char*, 2> kPathsNames{"transmission", "all"};
-inline constexpr std::array<const char*, 2> kInterpolationNames{"surface", "blend"};
-inline constexpr std::array<const char*, 2> kCullingNames{"hierarchical", "flat"};
-inline constexpr std::array<const char*, 2> kCosineNames{"exact", "still-water"};
-inline constexpr std::array<const char*, 4> kLightInterpolationNames{"nearest", "barycentric", "rotated",
-                                                                     "flow"};
-
 // How an irradiance volume is kept; as kRepresentation... of irradiance_volume/lookup.h.
 enum class Representation { grid, shells, multiResolution, harmonics };
-inline constexpr std::array<const char*, 4> kRepresentationNames{"grid", "shells", "multi-resolution",
-                                                                 "harmonics"};
+
+// What users call the enumerators, in their order.
+constexpr std::array<const char*, 2> namesOf(Source) {
+  return {"table", "traced"};
+}
+constexpr std::array<const char*, 2> namesOf(Paths) {
+  return {"transmission", "all"};
+}
+constexpr std::array<const char*, 2> namesOf(Interpolation) {
+  return {"surface", "blend"};
+}
+constexpr std::array<const char*, 2> namesOf(Culling) {
+  return {"hierarchical", "flat"};
+}
+constexpr std::array<const char*, 2> namesOf(Cosine) {
+  return {"exact", "still-water"};
+}
+constexpr std::array<const char*, 4> namesOf(LightInterpolation) {
+  return {"nearest", "barycentric", "rotated", "flow"};
+}
+constexpr std::array<const char*, 4> namesOf(Representation) {
+  return {"grid", "shells", "multi-resolution", "harmonics"};
+}
+
+template <class Choice>
+constexpr const char* nameOf(Choice choice) {
+  return namesOf(choice)[static_cast<std::size_t>(choice)];
+}
 
 struct TechniqueSettings {
   std::string technique = "automatic";  // a name of the registry
@@ -68,28 +85,18 @@ struct TechniqueSettings {
   uint32_t airError = 4;           // thousandths of shafts' mean luminance
 };
 
-inline const char* nameOf(Source source) {
-  return kSourceNames[static_cast<std::size_t>(source)];
-}
-inline const char* nameOf(Paths paths) {
-  return kPathsNames[static_cast<std::size_t>(paths)];
-}
-inline const char* nameOf(Interpolation interpolation) {
-  return kInterpolationNames[static_cast<std::size_t>(interpolation)];
-}
+// A choice among the settings. `flag` is without its dashes; what `nephroid bake` writes depends on it where
+// `isBaked`.
+struct ChoiceField {
+  const char* flag;
+  const char* help;
+  std::span<const char* const> names;
+  uint32_t (*get)(const TechniqueSettings&);  // the place of the name chosen
+  void (*set)(TechniqueSettings&, uint32_t);
+  bool isBaked = false;
+};
 
-inline const char* nameOf(Culling culling) {
-  return kCullingNames[static_cast<std::size_t>(culling)];
-}
-inline const char* nameOf(Cosine cosine) {
-  return kCosineNames[static_cast<std::size_t>(cosine)];
-}
-inline const char* nameOf(Representation representation) {
-  return kRepresentationNames[static_cast<std::size_t>(representation)];
-}
-inline const char* nameOf(LightInterpolation interpolation) {
-  return kLightInterpolationNames[static_cast<std::size_t>(interpolation)];
-}
+std::span<const ChoiceField> choiceFields();
 
 // A number among the settings.
 struct SettingField {

@@ -1,6 +1,9 @@
 // How outgoing beams become light on receivers.
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "gpu/command_list.h"
 #include "scene/scene.h"
 #include "techniques/gpu_scene.h"
@@ -11,8 +14,12 @@ namespace nephroid {
 struct ReceiverPoints {
   const gpu::Image* position = nullptr;  // rgba32f: world m; a = 1 where there is a receiver, else 0
   const gpu::Image* normal = nullptr;    // rgba32f: unit, on the side of the viewer or sensor
-  gpu::Region region{};                  // of the images that is asked for; empty: all of them
+  std::optional<gpu::Region> region{};   // of the images that is asked for; all of them without it
 };
+
+// A pass that adds to `causticsLux` at those points what `draw` draws with whole_picture.vert.
+void drawCaustics(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& causticsLux,
+                  const std::function<void()>& draw);
 
 // One frame is update, record, then shade for each view. A moved camera changes only what shade does.
 class Technique {

@@ -5,6 +5,7 @@
 #include "gpu/buffer_address.h"
 
 #include "optics/air.h"
+#include "optics/box.h"
 
 SHARED_BEGIN
 

@@ -1,14 +1,8 @@
 // Air whose density is given cell by cell in a box.
 layout(constant_id = 8) const bool kHasBox = false;
 
-// Which part of a straight way from `from` along unit `direction` runs through the box (m).
 vec2 wayThroughBox(AirBox box, vec3 from, vec3 direction, float length) {
-  const vec3 across = box.inverseSize * direction;
-  const vec3 inverse = 1 / mix(across, vec3(1e-9), lessThan(abs(across), vec3(1e-9)));
-  const vec3 toLow = (box.corner - from) * box.inverseSize * inverse;
-  const vec3 toHigh = toLow + inverse;
-  const vec3 near = min(toLow, toHigh), far = max(toLow, toHigh);
-  return vec2(max(max(near.x, near.y), max(near.z, 0)), min(min(far.x, far.y), min(far.z, length)));
+  return wayThroughBox(box.corner, box.corner + 1 / box.inverseSize, from, direction, length);
 }
 
 // Between the layers around a height of the box: `place` 0 to 1 along its axes, of which images hold

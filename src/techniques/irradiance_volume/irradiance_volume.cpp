@@ -183,14 +183,9 @@ void IrradianceVolumes::update(GpuScene&) {
 
 void IrradianceVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& points,
                               const gpu::Image& causticsLux) {
-  const bool isAll = points.region.size.x == 0 || points.region.size.y == 0;
-  commands.pass("caustics", [&] {
-    commands.render({.colors = {{&causticsLux, 0, std::nullopt}},
-                     .region = isAll ? std::nullopt : std::optional(points.region)},
-                    [&] {
-                      for (const VolumeConstants& share : shares)
-                        commands.draw(program, 3, 1, share, {*points.position, *points.normal});
-                    });
+  drawCaustics(commands, points, causticsLux, [&] {
+    for (const VolumeConstants& share : shares)
+      commands.draw(program, 3, 1, share, {*points.position, *points.normal});
   });
 }
 

@@ -107,16 +107,16 @@ void LightVolumes::record(gpu::CommandList& commands, GpuScene&) {
 void LightVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& points,
                          const gpu::Image& causticsLux) {
   if (tree.beams.empty()) return;
-  const bool isAll = points.region.size.x == 0 || points.region.size.y == 0;
+  const gpu::Region region =
+      points.region.value_or(gpu::Region{{0, 0}, {causticsLux.width(), causticsLux.height()}});
   LightVolumeConstants constants{};
   constants.beams = beams.onDevice.address();
   constants.bounds = bounds.onDevice.address();
   constants.still = still.onDevice.address();
   constants.counts = counts.address();
   constants.root = tree.root;
-  constants.corner = isAll ? ivec2(0) : points.region.corner;
-  constants.size =
-      isAll ? ivec2(int(causticsLux.width()), int(causticsLux.height())) : ivec2(points.region.size);
+  constants.corner = region.corner;
+  constants.size = ivec2(region.size);
   const uvec2 tiles = (uvec2(constants.size) + kTileSize - 1u) / kTileSize;
   commands.pass("caustics", [&] {
     commands.dispatch(program, {tiles.x * kThreads, tiles.y, 1}, constants,

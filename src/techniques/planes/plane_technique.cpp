@@ -179,19 +179,14 @@ void PlaneTechnique::record(gpu::CommandList& commands, GpuScene& gpuScene) {
 
 void PlaneTechnique::shade(gpu::CommandList& commands, const ReceiverPoints& points,
                            const gpu::Image& causticsLux) {
-  const bool isAll = points.region.size.x == 0 || points.region.size.y == 0;
-  commands.pass("caustics", [&] {
-    commands.render({.colors = {{&causticsLux, 0, std::nullopt}},
-                     .region = isAll ? std::nullopt : std::optional(points.region)},
-                    [&] {
-                      for (std::size_t set = 0; set < lit.size(); ++set)
-                        commands.draw(shadePrograms[lit[set].channels == 3], 3, 1,
-                                      ShadeConstants{lit[set].planes, float(settings.textureSize)},
-                                      {*points.position,
-                                       *points.normal,
-                                       {images[set].depths, texelSampler},
-                                       {images[set].textures, texelSampler}});
-                    });
+  drawCaustics(commands, points, causticsLux, [&] {
+    for (std::size_t set = 0; set < lit.size(); ++set)
+      commands.draw(shadePrograms[lit[set].channels == 3], 3, 1,
+                    ShadeConstants{lit[set].planes, float(settings.textureSize)},
+                    {*points.position,
+                     *points.normal,
+                     {images[set].depths, texelSampler},
+                     {images[set].textures, texelSampler}});
   });
 }
 
