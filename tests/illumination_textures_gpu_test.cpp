@@ -252,7 +252,7 @@ TEST_F(IlluminationTexturesGpuTest, DependNeitherOnTheCameraNorOnThePartAskedFor
   send(positions, points);
   send(normals, std::vector<vec4>(points.size(), vec4(0, 1, 0, 0)));
 
-  const auto lit = [&](const gpu::Region& region = {}) {
+  const auto lit = [&](const std::optional<gpu::Region>& region = {}) {
     transport.place(scene);
     technique->update(gpuScene);
     device().submitAndWait([&](gpu::CommandList& commands) {
@@ -268,7 +268,7 @@ TEST_F(IlluminationTexturesGpuTest, DependNeitherOnTheCameraNorOnThePartAskedFor
   EXPECT_GT(std::accumulate(before.begin(), before.end(), vec4(0)).y, 0);
   for (uint32_t i = 0; i < kSize * kSize; ++i)
     if (i % kSize < kSize / 2 || i / kSize >= kSize / 4) before[i] = vec4(0);
-  EXPECT_EQ(lit({{kSize / 2, 0}, {kSize / 2, kSize / 4}}), before);
+  EXPECT_EQ(lit(gpu::Region{{kSize / 2, 0}, {kSize / 2, kSize / 4}}), before);
   EXPECT_GT(std::accumulate(before.begin(), before.end(), vec4(0)).y, 0);
 }
 
