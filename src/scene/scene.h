@@ -21,11 +21,13 @@ struct Camera {
   vec3 up{0, 1, 0};
   float verticalFov = 40;  // degrees, whole angle
   float exposure = 1;      // multiplies luminance before tone mapping
+  bool operator==(const Camera&) const = default;
 };
 
 struct Environment {
   vec3 ambient{0};     // lux, on every receiver, from all around
   vec3 background{0};  // nit
+  bool operator==(const Environment&) const = default;
 };
 
 // Linear Rec. 709 RGBA, row 0 at the top; texture coordinate (0, 0) is the upper left corner, as in glTF.
@@ -52,6 +54,7 @@ struct Material {
       false;  // glTF transmission without a volume: light passes straight through, so no caustic
   bool isCaster() const { return type != MaterialType::diffuse; }
   bool isDispersive() const { return ior.x != ior.y || ior.y != ior.z; }
+  bool operator==(const Material&) const = default;
   float inverseAttenuationDistance() const { return attenuationDistance > 0 ? 1 / attenuationDistance : 0; }
 };
 
@@ -79,6 +82,7 @@ struct Placement {
   vec3 direction(vec3 d) const { return rotation * d; }
   vec3 inversePoint(vec3 p) const { return glm::conjugate(rotation) * (p - translation) / scale; }
   vec3 inverseDirection(vec3 d) const { return glm::conjugate(rotation) * d; }
+  bool operator==(const Placement&) const = default;
 };
 
 struct Wave {
@@ -121,6 +125,7 @@ struct Light {
   uint32_t goboTexture = kNone;  // what a spot's image lets through
   float goboRotation = 0;        // degrees, clockwise for who looks along the light
   uint32_t profile = kNone;      // which shapes a spot; its peak is `intensity`
+  bool operator==(const Light&) const = default;
 };
 
 // The goniometer's axes (IES LM-75). With vertical 0, horizontal 0 along the light:

@@ -13,17 +13,6 @@ constexpr std::uintmax_t kLargestSceneFile = std::uintmax_t{64} << 20;  // bytes
 constexpr double kLargestSensorSide = 16384;                            // texels
 constexpr double kLargestSensor = 1 << 26;                              // texels
 
-toml::table parse(const std::filesystem::path& file) {
-  const std::string name = oneLine(file.string());
-  const std::string text = readFile(file, kLargestSceneFile);
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw InputError(oneLine(name + ":" + std::to_string(error.source().begin.line) +
-                             ": not TOML: " + std::string(error.description())));
-  }
-}
-
 std::optional<TomlTable> section(const toml::table& root, TomlTable& top, const std::string& key,
                                  const std::string& file) {
   if (!top.has(key)) return std::nullopt;
@@ -41,7 +30,9 @@ Camera readCamera(TomlTable table) {
   if (!(glm::distance(camera.position, camera.target) > 0)) {
     table.fail("position", "is the target as well; they must differ");
   }
-  camera.up = upFor(camera.target - camera.position);
+  camera.up = table.vector3("up").value_or(upFor(camera.target - camera.position));
+  if (!(glm::length(glm::cross(camera.up, camera.target - camera.position)) > 0))
+    table.fail("up", "lies along the view; it must point to another side");
   table.finish();
   return camera;
 }
@@ -79,9 +70,17 @@ void readSensors(std::vector<TomlTable> tables, Scene& scene) {
 
 }  // namespace
 
+std::string readSceneFile(const std::filesystem::path& file) {
+  return readFile(file, kLargestSceneFile);
+}
+
 Scene loadTomlScene(const std::filesystem::path& file, double time) {
-  const toml::table root = parse(file);
+  return readTomlScene(readSceneFile(file), file, time);
+}
+
+Scene readTomlScene(const std::string& text, const std::filesystem::path& file, double time) {
   const std::string name = oneLine(file.string());
+  const toml::table root = parseToml(text, name);
   TomlTable top(root, name, "");
   Scene scene;
   scene.file = file;

@@ -9,6 +9,9 @@ namespace nephroid {
 
 // The scene in a .toml file. Throws InputError.
 Scene loadTomlScene(const std::filesystem::path& file, double time);
+// The same of its text, which may have changed since; and that text as the file has it.
+Scene readTomlScene(const std::string& text, const std::filesystem::path& file, double time);
+std::string readSceneFile(const std::filesystem::path& file);
 
 // The parts of it. Each adds to `scene` what its tables say.
 void readMaterials(std::vector<TomlTable> tables, Scene& scene);

@@ -18,6 +18,15 @@ std::string spelled(double value) {
 
 }  // namespace
 
+toml::table parseToml(const std::string& text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(oneLine(name + ":" + std::to_string(error.source().begin.line) +
+                             ": not TOML: " + std::string(error.description())));
+  }
+}
+
 TomlTable::TomlTable(const toml::table& table, std::string file, std::string name)
     : table_(&table), file_(std::move(file)), name_(std::move(name)) {}
 

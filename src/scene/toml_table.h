@@ -22,6 +22,9 @@ inline constexpr Range kNotNegative{0, 1e12};
 inline constexpr Range kPositive{1e-6, 1e9};
 inline constexpr Range kFraction{0, 1};
 
+// Throws InputError with `name`, the line and what is wrong.
+toml::table parseToml(const std::string& text, const std::string& name);
+
 class TomlTable {
  public:
   // `file` and `name` ("object \"ball\"", "camera") begin every error.

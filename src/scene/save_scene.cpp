@@ -1,0 +1,211 @@
+#include "scene/save_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/framing.h"
+#include "scene/mesh_checks.h"
+#include "scene/toml_table.h"
+#include "scene/toml_text.h"
+
+namespace nephroid {
+namespace {
+
+// The angles of `rotation`, as a scene file has them.
+vec3 eulerDegrees(quat rotation) {
+  const mat3 m = glm::mat3_cast(rotation);
+  const float sinY = glm::clamp(-m[0][2], -1.0f, 1.0f);
+  vec3 angles(std::atan2(m[1][2], m[2][2]), std::asin(sinY), std::atan2(m[0][1], m[0][0]));
+  if (std::abs(sinY) > 0.99999f) angles = {std::atan2(-m[2][1], m[1][1]), angles.y, 0};
+  return glm::degrees(angles);
+}
+
+void saveCamera(const Camera& before, const Camera& after, TomlText& text) {
+  if (before == after) return;
+  text.set("camera", "position", tomlVector(after.position));
+  text.set("camera", "target", tomlVector(after.target));
+  if (before.verticalFov != after.verticalFov || !text.table("camera"))
+    text.set("camera", "fov", tomlNumber(after.verticalFov));
+  if (before.exposure != after.exposure || !text.table("camera"))
+    text.set("camera", "exposure", tomlNumber(after.exposure));
+  if (upFor(after.target - after.position) != after.up) text.set("camera", "up", tomlVector(after.up));
+}
+
+void saveEnvironment(const Environment& before, const Environment& after, TomlText& text) {
+  if (before.ambient != after.ambient) text.set("environment", "ambient", tomlColor(after.ambient));
+  if (before.background != after.background)
+    text.set("environment", "background", tomlColor(after.background));
+}
+
+void saveMedium(const std::optional<Medium>& before, const std::optional<Medium>& after, TomlText& text) {
+  if (!before || !after) return;
+  const auto save = [&](const char* key, float Medium::*member) {
+    if (*before.*member != *after.*member) text.set("medium", key, tomlNumber(*after.*member));
+  };
+  save("extinction", &Medium::extinction);
+  save("albedo", &Medium::albedo);
+  save("g", &Medium::g);
+}
+
+void saveMaterial(const Material& before, const Material& after, const toml::table& table, TomlText& text) {
+  if (before.type != MaterialType::dielectric) {
+    if (before.color != after.color) text.set(table, "color", tomlColor(after.color));
+    return;
+  }
+  if (before.ior != after.ior)
+    text.set(table, "ior", after.dispersion > 0 ? tomlNumber(after.ior.y) : tomlColor(after.ior));
+  if (before.dispersion != after.dispersion)
+    text.set(table, "abbe", tomlNumber(after.dispersion > 0 ? 20 / after.dispersion : 10000.0f));
+  const bool isTinted = std::isfinite(after.attenuationDistance);
+  const bool differs = before.attenuationColor != after.attenuationColor ||
+                       before.attenuationDistance != after.attenuationDistance;
+  if (!differs || (!isTinted && !table.contains("attenuation_distance"))) return;
+  text.set(table, "attenuation_color", tomlVector(isTinted ? after.attenuationColor : vec3(1)));
+  if (isTinted) text.set(table, "attenuation_distance", tomlNumber(after.attenuationDistance));
+}
+
+void savePlacement(const Scene& scene, const Object& before, const Object& after, const toml::table& table,
+                   TomlText& text) {
+  const Placement& placement = after.placement;
+  if (before.placement == placement) return;
+  const auto [low, high] = boundingBox(scene.meshOf(after));
+  const bool isFitted = table.contains("fit");
+  // What `fit` adds to the translation so that the box's middle is where the origin would be.
+  const vec3 moved = isFitted ? placement.rotation * (placement.scale * 0.5f * (low + high)) : vec3(0);
+  text.set(table, "translation", tomlVector(placement.translation + moved));
+  if (before.placement.rotation != placement.rotation)
+    text.set(table, "rotation", tomlVector(eulerDegrees(placement.rotation)));
+  if (before.placement.scale == placement.scale) return;
+  const vec3 size = high - low;
+  if (isFitted)
+    text.set(table, "fit", tomlNumber(placement.scale * std::max({size.x, size.y, size.z})));
+  else
+    text.set(table, "scale", tomlNumber(placement.scale));
+}
+
+// A cue's key no longer says anything else than `value`.
+void endCue(const toml::table& table, const char* key, float value, TomlText& text) {
+  if (table.contains(key)) text.set(table, key, tomlNumber(value));
+}
+
+// A strength that other keys multiply: what stands there, multiplied as the light was. False where it is not
+// to be had so: there is none, or it was dark.
+bool scaleStrength(const toml::table& table, const char* key, vec3 before, vec3 after, TomlText& text) {
+  if (!table.contains(key)) return false;
+  vec3 factor(1);
+  for (int c = 0; c < 3; ++c) {
+    if (before[c] == 0 && after[c] != 0) return false;
+    if (before[c] != 0) factor[c] = after[c] / before[c];
+  }
+  TomlTable reader(table, "", "");
+  text.set(table, key, tomlColor(factor * reader.requiredNumberOrRgb(key, kNotNegative)));
+  return true;
+}
+
+void saveStrength(const Light& before, const Light& after, bool hasOtherCone, const toml::table& table,
+                  TomlText& text) {
+  const bool isDirectional = before.type == LightType::directional;
+  const vec3 was = isDirectional ? before.illuminance : before.intensity;
+  const vec3 is = isDirectional ? after.illuminance : after.intensity;
+  if (was == is && !hasOtherCone) return;
+  const char* key = isDirectional ? "illuminance" : "intensity";
+  if (!hasOtherCone &&
+      (scaleStrength(table, key, was, is, text) || scaleStrength(table, "flux", was, is, text)))
+    return;
+  endCue(table, "dimmer", 1, text);
+  if (table.contains("flux"))
+    text.replace(table, "flux", key, tomlColor(is));
+  else
+    text.set(table, key, tomlColor(is));
+}
+
+void saveDirection(const Light& before, const Light& after, const toml::table& table, TomlText& text) {
+  if (before.direction == after.direction) return;
+  endCue(table, "pan", 0, text);
+  endCue(table, "tilt", 0, text);
+  if (table.contains("target"))
+    text.replace(table, "target", "direction", tomlVector(after.direction));
+  else
+    text.set(table, "direction", tomlVector(after.direction));
+}
+
+void saveLight(const Light& before, const Light& after, const toml::table& table, TomlText& text) {
+  if (before == after) return;
+  const bool isLine = before.type == LightType::line;
+  if (before.position != after.position)
+    text.set(table, isLine ? "from" : "position", tomlVector(after.position));
+  if (before.end != after.end) text.set(table, "to", tomlVector(after.end));
+  // A spot that is moved keeps its direction, which "target" would not.
+  Light aimed = before;
+  if (table.contains("target") && before.position != after.position) aimed.direction = vec3(0);
+  saveDirection(aimed, after, table, text);
+  const bool hasOtherCone = before.innerAngle != after.innerAngle || before.outerAngle != after.outerAngle;
+  if (hasOtherCone) {
+    text.set(table, "outer_angle", tomlNumber(after.outerAngle));
+    text.set(table, "inner_angle", tomlNumber(after.innerAngle));
+    endCue(table, "zoom", after.outerAngle, text);
+  }
+  if (before.goboRotation != after.goboRotation)
+    text.set(table, "gobo_rotation", tomlNumber(after.goboRotation));
+  saveStrength(before, after, hasOtherCone, table, text);
+}
+
+// Tables of imports stand for as many objects as their names begin.
+void saveObjects(const Scene& before, const Scene& after, TomlText& text,
+                 std::vector<std::string>& notSaved) {
+  std::size_t next = 0;
+  for (const toml::table* table : text.tables("object")) {
+    if (!table->contains("import")) {
+      if (next >= before.objects.size()) return;
+      savePlacement(after, before.objects[next], after.objects[next], *table, text);
+      ++next;
+      continue;
+    }
+    const std::string prefix = (*table)["name"].value_or("object " + std::to_string(next + 1)) + "/";
+    for (; next < before.objects.size() && before.objects[next].name.starts_with(prefix); ++next)
+      if (before.objects[next].placement != after.objects[next].placement)
+        notSaved.push_back(before.objects[next].name);
+  }
+}
+
+// Of lists that the file has a part of, in a row: `first` is the place of its first table.
+template <class Element, class Save>
+void saveList(const std::vector<Element>& before, const std::vector<Element>& after, std::size_t first,
+              const std::vector<const toml::table*>& tables, std::vector<std::string>& notSaved,
+              const Save& save) {
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (i >= first && i - first < tables.size())
+      save(before[i], after[i], *tables[i - first]);
+    else if (!(before[i] == after[i]))
+      notSaved.push_back(before[i].name);
+  }
+}
+
+}  // namespace
+
+SavedScene savedScene(const std::string& source, const Scene& before, const Scene& after) {
+  TomlText text(source, before.file.string());
+  SavedScene saved;
+  saveCamera(before.camera, after.camera, text);
+  saveEnvironment(before.environment, after.environment, text);
+  saveMedium(before.medium, after.medium, text);
+  saveList(before.materials, after.materials, 0, text.tables("material"), saved.notSaved,
+           [&](const Material& was, const Material& is, const toml::table& table) {
+             saveMaterial(was, is, table, text);
+           });
+  saveObjects(before, after, text, saved.notSaved);
+  const std::vector<const toml::table*> lights = text.tables("light");
+  saveList(before.lights, after.lights, before.lights.size() - std::min(lights.size(), before.lights.size()),
+           lights, saved.notSaved, [&](const Light& was, const Light& is, const toml::table& table) {
+             saveLight(was, is, table, text);
+           });
+  saved.text = text.text();
+  return saved;
+}
+
+std::string sceneAround(const std::filesystem::path& file) {
+  return "[[object]]\nname = \"" + file.stem().string() + "\"\nimport = \"" + file.filename().string() +
+         "\"\n";
+}
+
+}  // namespace nephroid
