@@ -16,6 +16,7 @@ irradiance_volume core optics scene trace transport
 techniques core optics scene trace transport irradiance_volume beams gpu
 render core optics scene trace transport irradiance_volume beams gpu techniques
 report core optics scene trace reference transport irradiance_volume beams gpu techniques render
+viewer core optics scene trace reference transport irradiance_volume beams gpu techniques render report
 "
 wrong=0
 complain() {

@@ -12,10 +12,12 @@ packages=(
   libtinygltf-dev libtinyobjloader-dev libassimp-dev libopenmesh-dev libtomlplusplus-dev
   libopenexr-dev libpng-dev libcli11-dev nlohmann-json3-dev libxxhash-dev
   libopenvdb-dev libboost-dev                   # density grids of the air
+  libglfw3-dev libimgui-dev                     # the viewer's window
   glmark2-data                                  # the bunny, the cat and the horse
 )
 if [ "${1:-}" = tests ]; then
-  packages+=(libgtest-dev libbenchmark-dev vulkan-validationlayers clang clang-format clang-tidy libclang-rt-dev)
+  packages+=(libgtest-dev libbenchmark-dev vulkan-validationlayers clang clang-format clang-tidy libclang-rt-dev
+             xvfb xdotool)
   # Opens a report in a test, which is skipped without it: Ubuntu's package is a snap, which containers do not run.
   if grep -qsx 'ID=debian' /etc/os-release; then packages+=(chromium); fi
 elif [ -n "${1:-}" ]; then

@@ -29,6 +29,7 @@ Command addBake(CLI::App& program);
 Command addCompare(CLI::App& program);
 Command addBench(CLI::App& program);
 Command addInfo(CLI::App& program);
+Command addView(CLI::App& program);
 
 // What most commands share.
 struct CommonOptions {

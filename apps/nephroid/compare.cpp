@@ -19,7 +19,7 @@ namespace {
 struct CompareOptions : CommonOptions {
   std::vector<std::string> techniques;
   TechniqueSettings technique;
-  RenderSettings render;
+  uvec2 size{640, 480};  // pixels
   ReferenceOptions reference;
 };
 
@@ -49,8 +49,8 @@ Stats statsOf(const TechniqueSettings& settings, const gpu::Device& device) {
 TechniqueResult drawTechnique(const Setting& setting, const std::string& technique) {
   const TechniqueSettings settings = settingsOf(setting.options, technique);
   TechniqueResult result{{}, statsOf(settings, setting.device), imageAttributes(settings, "nit")};
-  const FrameRequest request{setting.options.scene,  setting.options.time,   settings,
-                             setting.options.render, setting.options.repeat, technique};
+  const FrameRequest request{setting.options.scene, setting.options.time,   settings,
+                             setting.options.size,  setting.options.repeat, technique};
   addMedianFrame(drawFrame(request, setting.device, setting.progress, result.stats,
                            [&](Renderer& renderer) { result.image = renderer.layers(); }),
                  result.stats);
@@ -86,9 +86,9 @@ SideBySide compareView(const Setting& setting) {
   SideBySide view;
   for (const std::string& technique : setting.options.techniques)
     view.techniques.push_back(drawTechnique(setting, technique));
-  view.seesReceiver = seesReceiver(setting.scene, setting.rays, setting.options.render.size);
+  view.seesReceiver = seesReceiver(setting.scene, setting.rays, setting.options.size);
   const ReferenceSettings settings =
-      referenceSettings(setting.options.reference, setting.options.technique, setting.options.render.size);
+      referenceSettings(setting.options.reference, setting.options.technique, setting.options.size);
   ReferenceImage reference(setting.scene, setting.rays, settings);
   view.reference = refineReference(setting, reference, settings, "");
   return view;
@@ -135,8 +135,7 @@ void runCompare(const CompareOptions& options) {
   comparison.device = device.info().name;
   comparison.time = options.time;
   comparison.exposure = scene.camera.exposure;
-  const ReferenceSettings reference =
-      referenceSettings(options.reference, options.technique, options.render.size);
+  const ReferenceSettings reference = referenceSettings(options.reference, options.technique, options.size);
   comparison.paths = nameOf(reference.paths);
   comparison.techniquePaths = nameOf(options.technique.paths);
   comparison.spectrum = reference.spectrum == Spectrum::channels ? "channels" : "continuous";
@@ -190,7 +189,7 @@ Command addCompare(CLI::App& program) {
           "A report that is there is replaced")
       ->required()
       ->type_name("REPORT_DIR");
-  addSize(*command, options->render.size);
+  addSize(*command, options->size);
   addTime(*command, options->time);
   addTechniques(*command, options->techniques);
   addTechniqueSettings(*command, options->technique, false);

@@ -14,11 +14,7 @@ std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& devic
   const Scene scene = loadScene(request.scene, request.time);
   SceneTransport transport(scene, request.technique, progress);
   const auto technique = makeTechnique({device, request.technique, transport, stats});
-  RenderSettings render = request.render;
-  render.sight.slices = request.technique.slices;
-  render.shafts = {request.technique.airPlanes, request.technique.airSubplanes,
-                   float(request.technique.airError) / 1000};
-  Renderer renderer(device, transport, render, *technique);
+  Renderer renderer(device, transport, renderSettings(request.technique, request.size), *technique);
   stats.prepareMilliseconds += preparing.milliseconds();
 
   std::vector<FrameTime> times(request.repeat);

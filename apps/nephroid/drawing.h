@@ -16,7 +16,7 @@ struct FrameRequest {
   const std::filesystem::path& scene;
   double time = 0;  // s
   const TechniqueSettings& technique;
-  const RenderSettings& render;
+  uvec2 size{640, 480};  // pixels
   uint32_t repeat = 1;
   std::string name;  // of the step, for the progress bar
 };

@@ -81,8 +81,8 @@ ExitStatus runProgram(int argc, char** argv) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   app.footer("Exit status: 0 done; 1 it could not be done; 2 the input is wrong; 130 interrupted.");
-  const Command commands[] = {addRender(app), addMeasure(app), addCompare(app),
-                              addBake(app),   addBench(app),   addInfo(app)};
+  const Command commands[] = {addRender(app), addMeasure(app), addCompare(app), addBake(app),
+                              addBench(app),  addInfo(app),    addView(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

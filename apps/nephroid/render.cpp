@@ -22,7 +22,7 @@ struct FrameRange {
 
 struct RenderOptions : CommonOptions {
   TechniqueSettings technique;
-  RenderSettings render;
+  uvec2 size{640, 480};  // pixels
   std::optional<FrameRange> frames;
   double framesPerSecond = 60;
   ReferenceOptions reference;
@@ -60,8 +60,8 @@ void writePicture(Renderer& renderer, const TechniqueSettings& settings, const f
 // Draws and writes a frame; returns the times of all its repetitions.
 std::vector<FrameTime> drawJob(const RenderOptions& options, const FrameJob& job, gpu::Device& device,
                                Progress& progress, Stats& stats) {
-  const FrameRequest request{options.scene,  job.time,       options.technique,
-                             options.render, options.repeat, job.output.filename().string()};
+  const FrameRequest request{options.scene, job.time,       options.technique,
+                             options.size,  options.repeat, job.output.filename().string()};
   return drawFrame(request, device, progress, stats,
                    [&](Renderer& renderer) { writePicture(renderer, options.technique, job.output); });
 }
@@ -78,8 +78,7 @@ void renderReference(const RenderOptions& options, const std::vector<FrameJob>& 
     common.output = job.output;
     const Scene scene = loadScene(options.scene, job.time);
     const RayScene rays(scene);
-    const ReferenceSettings settings =
-        referenceSettings(options.reference, options.technique, options.render.size);
+    const ReferenceSettings settings = referenceSettings(options.reference, options.technique, options.size);
     ReferenceImage image(scene, rays, settings);
     stats.prepareMilliseconds += preparing.milliseconds();
     refineToFile(image, {common, options.reference, settings, scene, "nit", ""}, progress, stats);
@@ -140,7 +139,7 @@ Command addRender(CLI::App& program) {
       "OUT.png: exposed and tone-mapped. OUT.exr: 32-bit float luminance in nit: R,G,B the total; "
       "direct.R,G,B and caustics.R,G,B its parts by light that met no caster, and by light that met one; "
       "depth.Z in metres; normal.X,Y,Z");
-  addSize(*command, options->render.size);
+  addSize(*command, options->size);
   addTime(*command, options->time);
   addFrames(*command, *options);
   addTechnique(*command, options->technique, false);

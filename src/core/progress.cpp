@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/error.h"
 #include "core/interrupt.h"
 
 namespace nephroid {
@@ -33,18 +34,31 @@ std::string describeDuration(double seconds) {
   return text;
 }
 
+void Progress::throwIfEnded() const {
+  throwIfInterrupted();
+  if (isCancelled_) throw Interrupted();
+}
+
+Progress::State Progress::state() const {
+  const std::lock_guard lock(naming_);
+  return {name_, total_ ? std::min(1.0, double(done_) / double(total_)) : 0.0};
+}
+
 void Progress::begin(std::string name, uint64_t total) {
   finish();
-  throwIfInterrupted();
-  name_ = std::move(name);
-  total_ = total;
-  done_ = 0;
+  throwIfEnded();
+  {
+    const std::lock_guard lock(naming_);
+    name_ = std::move(name);
+    total_ = total;
+    done_ = 0;
+  }
   start_ = Clock::now();
   lastDrawn_ = start_ + kBeforeFirstDraw - kBetweenDraws;
 }
 
 void Progress::advance(uint64_t count) {
-  throwIfInterrupted();
+  throwIfEnded();
   const uint64_t done = done_ += count;
   if (!isShown_) return;
   const std::unique_lock lock(drawing_, std::try_to_lock);
@@ -53,8 +67,11 @@ void Progress::advance(uint64_t count) {
 }
 
 void Progress::show(std::string name, uint64_t done) {
-  name_ = std::move(name);
-  done_ = done;
+  {
+    const std::lock_guard lock(naming_);
+    name_ = std::move(name);
+    done_ = done;
+  }
   const Clock::time_point now = Clock::now();
   if (isShown_ && now - lastDrawn_ >= kBetweenDraws) draw(done, now);
 }

@@ -1,5 +1,5 @@
-// What a long step shows of itself: a bar with the time left, on standard error. It is also where Ctrl-C is
-// noticed.
+// What a long step shows of itself: a bar with the time left, on standard error. It is also where Ctrl-C, or
+// the step being cancelled, is noticed.
 #pragma once
 
 #include <atomic>
@@ -24,19 +24,32 @@ class Progress {
   // A step of `total` equal parts starts, in place of the one before. `name` is what a user reads: "light
   // transport table".
   void begin(std::string name, uint64_t total);
-  // `count` more parts are done. From any thread. Throws Interrupted after Ctrl-C.
+  // `count` more parts are done. From any thread. Throws Interrupted after Ctrl-C or `cancel`.
   void advance(uint64_t count = 1);
   // `done` of the parts are done, and the step has another name. Leaves Ctrl-C to the caller.
   void show(std::string name, uint64_t done);
   // The step is over: its bar is wiped.
   void finish();
 
+  // How far the step is, for who looks on from another thread.
+  struct State {
+    std::string name;  // empty before the first step
+    double fraction = 0;
+  };
+  State state() const;
+  // From any thread, once and for all: the work is unwound as by Ctrl-C.
+  void cancel() { isCancelled_ = true; }
+  bool isCancelled() const { return isCancelled_; }
+
  private:
   using Clock = std::chrono::steady_clock;
+  void throwIfEnded() const;
   void draw(uint64_t done, Clock::time_point now);
 
   bool isShown_ = false;
   bool isDrawn_ = false;
+  std::atomic<bool> isCancelled_{false};
+  mutable std::mutex naming_;  // of the name and the total
   std::string name_;
   uint64_t total_ = 0;
   std::atomic<uint64_t> done_{0};

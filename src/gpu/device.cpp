@@ -185,7 +185,8 @@ std::vector<DeviceInfo> listDevices() {
   return describeAll(instance.physicalDevices());
 }
 
-Device::Device(const DeviceOptions& options) : instance_(validationWanted(options)) {
+Device::Device(const DeviceOptions& options)
+    : instance_(validationWanted(options), options.surfaceExtensions) {
   const std::vector<VkPhysicalDevice> devices = instance_.physicalDevices();
   const std::vector<DeviceInfo> infos = describeAll(devices);
   info_ = options.device.empty() ? chosenByItself(infos) : chosenByName(infos, options.device);
@@ -197,10 +198,13 @@ Device::Device(const DeviceOptions& options) : instance_(validationWanted(option
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physicalDevice_, &properties);
   limits_ = properties.limits;
-  createDevice();
+  const bool showsPictures = !options.surfaceExtensions.empty();
+  if (showsPictures && !hasDeviceExtension(physicalDevice_, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
+    throw RuntimeFailure("the Vulkan device \"" + info_.name + "\" cannot show pictures in a window");
+  createDevice(showsPictures);
 }
 
-void Device::createDevice() {
+void Device::createDevice(bool showsPictures) {
   queueFamily_ = *findQueueFamily(physicalDevice_, &timestampBits_);
   const float priority = 1;
   auto queue = structure<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
@@ -210,13 +214,14 @@ void Device::createDevice() {
 
   Features features;
   for (const auto& [name, value] : features.required()) *value = VK_TRUE;
-  const char* extension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
+  std::vector<const char*> extensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+  if (showsPictures) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   auto info = structure<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
   info.pNext = &features.all;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  info.enabledExtensionCount = 1;
-  info.ppEnabledExtensionNames = &extension;
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   check(vkCreateDevice(physicalDevice_, &info, nullptr, &handle_),
         "creating the device \"" + info_.name + "\"");
   vkGetDeviceQueue(handle_, queueFamily_, 0, &queue_);

@@ -20,6 +20,8 @@ struct DeviceOptions {
   std::string device;       // index or part of the name; empty: discrete before integrated, virtual, software
   bool validation = false;  // Khronos validation layer with synchronisation validation; NEPHROID_VALIDATION=1
                             // turns it on too
+  // What a window system needs of the instance; not empty: the device can show pictures (Swapchain).
+  std::vector<std::string> surfaceExtensions{};
 };
 
 struct DeviceInfo {
@@ -46,7 +48,10 @@ class Device {
   // timestamps).
   std::vector<PassTime> submitAndWait(const std::function<void(CommandList&)>& record);
 
+  VkInstance instance() const { return instance_.handle(); }
   VkDevice handle() const { return handle_; }
+  VkQueue queue() const { return queue_; }
+  uint32_t queueFamily() const { return queueFamily_; }
   VkPhysicalDevice physicalDevice() const { return physicalDevice_; }
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
@@ -61,7 +66,7 @@ class Device {
   bool hasDebugNames() const { return instance_.hasDebugNames(); }
 
  private:
-  void createDevice();
+  void createDevice(bool showsPictures);
   std::vector<PassTime> readPassTimes(const CommandList& commands) const;
 
   Instance instance_;

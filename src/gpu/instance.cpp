@@ -40,7 +40,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBit
 
 }  // namespace
 
-Instance::Instance(bool validation) {
+Instance::Instance(bool validation, const std::vector<std::string>& surfaceExtensions) {
   if (volkInitialize() != VK_SUCCESS)
     throw RuntimeFailure(std::string("no Vulkan loader (libvulkan.so.1) was found: ") + kInstallDriver);
   if (volkGetInstanceVersion() < VK_API_VERSION_1_3)
@@ -55,6 +55,7 @@ Instance::Instance(bool validation) {
                    (validation && hasExtension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
   if (hasDebugNames_) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   if (validation) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+  for (const std::string& extension : surfaceExtensions) extensions.push_back(extension.c_str());
 
   auto messenger =
       structure<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
@@ -84,6 +85,8 @@ Instance::Instance(bool validation) {
   const VkResult result = vkCreateInstance(&info, nullptr, &handle_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
     throw RuntimeFailure(std::string("no Vulkan driver was found: ") + kInstallDriver);
+  if (result == VK_ERROR_EXTENSION_NOT_PRESENT)
+    throw RuntimeFailure("the Vulkan loader knows no way to show pictures in this window system");
   check(result, "creating the instance");
 
   // Only instance-level entry points: the loader dispatches by handle, so that several devices can live side

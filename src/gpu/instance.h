@@ -10,9 +10,9 @@ namespace nephroid::gpu {
 
 class Instance {
  public:
-  // Throws RuntimeFailure, saying what to install, when there is no loader, or no validation layer where one
-  // is wanted.
-  explicit Instance(bool validation);
+  // `surfaceExtensions`: what a window system needs. Throws RuntimeFailure, saying what to install, when
+  // there is no loader, or no validation layer where one is wanted.
+  explicit Instance(bool validation, const std::vector<std::string>& surfaceExtensions = {});
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;

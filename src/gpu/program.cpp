@@ -72,9 +72,11 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
   VkPipelineColorBlendAttachmentState state{};
   state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                          VK_COLOR_COMPONENT_A_BIT;
-  state.blendEnable = blend == Blend::add;
-  state.srcColorBlendFactor = state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-  state.dstColorBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  state.blendEnable = blend != Blend::none;
+  state.srcColorBlendFactor = blend == Blend::over ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
+  state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  state.dstColorBlendFactor = state.dstAlphaBlendFactor =
+      blend == Blend::over ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
   state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_ADD;
   return state;
 }

@@ -19,7 +19,8 @@ struct SpecializationConstant {
   uint32_t value = 0;
 };
 
-enum class Blend { none, add };
+// over: by its alpha over what is there.
+enum class Blend { none, add, over };
 
 struct ColorTarget {
   VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;

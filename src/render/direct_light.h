@@ -49,6 +49,8 @@ class DirectLight {
     std::vector<gpu::SpecializationConstant> specialization() const;  // as light.glsl.h has them
   };
 
+  void resize(uint32_t shadowMapSize) { shadowMapSize_ = shadowMapSize; }
+
   // What the host does in a frame. `extents` are those of scene.meshes. Nothing is in use by the device.
   void update(const Scene& scene, const std::vector<MeshExtent>& extents, const LightsInAir& air);
 

@@ -39,12 +39,24 @@ void clearRegion(gpu::CommandList& commands, const gpu::Image& image,
     commands.clear(image, vec4(0));
 }
 
+uint32_t shadowMapSizeOf(const RenderSettings& settings) {
+  return settings.shadowMapSize > 0 ? settings.shadowMapSize : std::max(settings.size.x, settings.size.y);
+}
+
 bool hasEmission(const Scene& scene) {
   return std::ranges::any_of(scene.materials,
                              [](const Material& material) { return material.emission != vec3(0); });
 }
 
 }  // namespace
+
+RenderSettings renderSettings(const TechniqueSettings& settings, uvec2 size) {
+  RenderSettings render;
+  render.size = size;
+  render.sight.slices = settings.slices;
+  render.shafts = {settings.airPlanes, settings.airSubplanes, float(settings.airError) / 1000};
+  return render;
+}
 
 Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderSettings& settings,
                    Technique& technique)
@@ -57,11 +69,16 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
                                     {hasEmission(transport.scene()), transport.scene().medium.has_value()})),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
       sight_(device, settings.sight),
-      directLight_(
-          device, transport.scene(),
-          settings.shadowMapSize > 0 ? settings.shadowMapSize : std::max(settings.size.x, settings.size.y)),
+      directLight_(device, transport.scene(), shadowMapSizeOf(settings)),
       shafts_(device, transport.scene(), settings.size, settings.shafts) {
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
+}
+
+void Renderer::resize(uvec2 size) {
+  settings_.size = size;
+  images_ = createFrameImages(device_, size.x, size.y);
+  directLight_.resize(shadowMapSizeOf(settings_));
+  shafts_.resize(size);
 }
 
 std::vector<PassTime> Renderer::render(const Scene& scene) {

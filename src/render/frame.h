@@ -21,6 +21,9 @@ struct RenderSettings {
   ShaftSettings shafts;
 };
 
+// A picture of `size` pixels as `settings` ask for it.
+RenderSettings renderSettings(const TechniqueSettings& settings, uvec2 size);
+
 // An object as it is drawn.
 struct Surface {
   bool isReceiver = false;
@@ -35,6 +38,10 @@ class Renderer {
   Renderer(gpu::Device& device, SceneTransport& transport, const RenderSettings& settings,
            Technique& technique);
 
+  // Pictures are of another size from now on.
+  void resize(uvec2 size);
+  uvec2 size() const { return settings_.size; }
+
   // A whole frame, with all that a moved light, camera or object would change. Returns the time in each pass,
   // on the host and on the device, in the order in which they ran.
   std::vector<PassTime> render(const Scene& scene);
@@ -46,6 +53,9 @@ class Renderer {
   // light that met no caster and from light that met one; shafts.R,G,B, that from the air; depth.Z (m along
   // the view, 0 where there is nothing) and normal.X,Y,Z of the nearest surface.
   Image layers();
+
+  // Of the last frame, as passes left them.
+  const FrameImages& images() const { return images_; }
 
   GpuScene& gpuScene() { return gpuScene_; }
   const Shafts& shafts() const { return shafts_; }

@@ -6,12 +6,16 @@
 
 namespace nephroid {
 
+vec3 uprightFor(const Camera& camera, vec3 forward) {
+  return std::abs(dot(forward, normalize(camera.up))) < 0.9999f ? camera.up : vec3(0, 0, -1);
+}
+
 View viewOf(const Camera& camera, uvec2 size) {
   View view;
   view.eye = camera.position;
   view.forward = normalize(camera.target - camera.position);
   const float tangent = std::tan(0.5f * glm::radians(camera.verticalFov));
-  const vec3 up = std::abs(dot(view.forward, normalize(camera.up))) < 0.9999f ? camera.up : vec3(0, 0, -1);
+  const vec3 up = uprightFor(camera, view.forward);
   const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
   view.nearest = 1e-4f * distance(camera.target, camera.position);
   view.pixelAngle = 2 * tangent / static_cast<float>(size.y);

@@ -18,6 +18,9 @@ struct View {
   float pixelAngle;  // radians between neighbouring pixels, in the middle of the picture
 };
 
+// What a camera that looks along `forward` (unit) has above it; not necessarily across the view.
+vec3 uprightFor(const Camera& camera, vec3 forward);
+
 // Sees infinitely far, and as near as a ten-thousandth of the distance to what is looked at.
 View viewOf(const Camera& camera, uvec2 size);
 

@@ -83,6 +83,7 @@ struct TechniqueSettings {
   uint32_t airPlanes = 0;          // sampling planes of shafts; 0: as many as airError asks for
   uint32_t airSubplanes = 0;       // sub-sample planes of each; 0: as many as airError asks for
   uint32_t airError = 4;           // thousandths of shafts' mean luminance
+  bool operator==(const TechniqueSettings&) const = default;
 };
 
 // A choice among the settings. `flag` is without its dashes; what `nephroid bake` writes depends on it where

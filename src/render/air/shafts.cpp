@@ -58,12 +58,17 @@ Shafts::Shafts(gpu::Device& device, const Scene& scene, uvec2 pictureSize, const
   transmittance_ =
       gpu::createRasterProgram(device, "transmittance of the air", shaders::air_vert,
                                shaders::transmittance_frag, {.colors = {{kFloats}}}, {{8, box_->isThere()}});
-  image_ = gpu::createImage(device, "shafts", {.width = pictureSize.x, .height = pictureSize.y});
-  glimpse_ = gpu::createImage(device, "glimpse of shafts",
-                              {.width = std::max(pictureSize.x / kGlimpseStride, 1u),
-                               .height = std::max(pictureSize.y / kGlimpseStride, 1u)});
   lights_ =
       gpu::createBuffer(device, "air", (scene.lights.size() + 1) * sizeof(AirLight), gpu::MemoryKind::upload);
+  resize(pictureSize);
+}
+
+void Shafts::resize(uvec2 pictureSize) {
+  if (!box_) return;
+  image_ = gpu::createImage(device_, "shafts", {.width = pictureSize.x, .height = pictureSize.y});
+  glimpse_ = gpu::createImage(device_, "glimpse of shafts",
+                              {.width = std::max(pictureSize.x / kGlimpseStride, 1u),
+                               .height = std::max(pictureSize.y / kGlimpseStride, 1u)});
 }
 
 LightsInAir Shafts::lightsInAir() const {

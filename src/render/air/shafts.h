@@ -30,6 +30,9 @@ class Shafts {
 
   explicit operator bool() const { return bool(image_); }
 
+  // Pictures are of another size from now on.
+  void resize(uvec2 pictureSize);
+
   // Nothing is in use by the device.
   void update(const Scene& scene, const View& view);
 

@@ -156,14 +156,17 @@ void SightPass::upload(const View& view) {
 }
 
 void SightPass::ensureImages(uvec2 pictureSize) {
-  if (casters_.empty() || receiverImages_.depths) return;
+  if (casters_.empty()) return;
   const auto picture = [&](const char* name) {
     return gpu::createImage(device_, name,
                             {.format = kFloats, .width = pictureSize.x, .height = pictureSize.y});
   };
-  position_ = picture("casters' positions");
-  exit_ = picture("where sight leaves casters");
-  direction_ = picture("directions of sight");
+  if (!position_ || uvec2(position_.width(), position_.height()) != pictureSize) {
+    position_ = picture("casters' positions");
+    exit_ = picture("where sight leaves casters");
+    direction_ = picture("directions of sight");
+  }
+  if (receiverImages_.depths) return;
   const auto create = [&](const char* name, VkFormat format) {
     return gpu::createImage(device_, name,
                             {.format = format,

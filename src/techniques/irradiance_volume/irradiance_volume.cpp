@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <map>
+#include <set>
 
 #include "core/cache_folder.h"
 #include "gpu/program.h"
@@ -222,6 +223,30 @@ SceneVolumes sceneVolumes(const Scene& scene, const TechniqueSettings& settings)
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     if (keyOfObject[i] != kNone) all.ofObject[i] = all.volumes[keyOfObject[i]].get();
   return all;
+}
+
+void keepLightSamples(const Scene& scene, const TechniqueSettings& settings, Progress& progress) {
+  const SceneVolumes volumes = sceneVolumes(scene, settings);
+  std::set<std::pair<IrradianceVolume*, uint32_t>> samples;
+  for (uint32_t l = 0; l < scene.lights.size(); ++l)
+    for (const Emitter& emitter : emittersOf(scene.lights[l], l))
+      for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        IrradianceVolume* volume = volumes.ofObject[i];
+        if (!volume) continue;
+        const Placement& placement = scene.objects[i].placement;
+        const vec3 direction = emitterDirection(emitter, placement.point(volume->sphere().centre));
+        if (settings.representation == Representation::harmonics)
+          samples.emplace(volume, 0);
+        else
+          for (const SampleShare& share : volume->lightSamples().around(placement.inverseDirection(direction),
+                                                                        settings.lightInterpolation))
+            samples.emplace(volume, share.sample);
+      }
+  progress.begin("Irradiance volumes", samples.size());
+  for (const auto& [volume, sample] : samples) {
+    volume->makeSample(sample);
+    progress.advance();
+  }
 }
 
 std::unique_ptr<Technique> makeIrradianceVolumes(const TechniqueContext& context) {

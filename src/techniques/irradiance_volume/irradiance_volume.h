@@ -22,4 +22,8 @@ struct SceneVolumes {
 // outlive them. Throws InputError where the baked file is not of this scene.
 SceneVolumes sceneVolumes(const Scene& scene, const TechniqueSettings& settings);
 
+// What the technique would look up for the lights of `scene` is traced where the cache does not hold it, and
+// kept there.
+void keepLightSamples(const Scene& scene, const TechniqueSettings& settings, Progress& progress);
+
 }  // namespace nephroid

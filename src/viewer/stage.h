@@ -1,0 +1,37 @@
+// A scene on the device, ready to be drawn again and again.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/frame.h"
+#include "techniques/technique.h"
+#include "viewer/preparation.h"
+
+namespace nephroid {
+
+class Stage {
+ public:
+  // The device outlives it.
+  Stage(gpu::Device& device, std::unique_ptr<Prepared> prepared, uvec2 size);
+
+  // As Renderer::render. `scene` has the objects, meshes and lights that this was made of.
+  std::vector<PassTime> render(const Scene& scene) { return renderer_.render(scene); }
+  void resize(uvec2 size) { renderer_.resize(size); }
+  uvec2 size() const { return renderer_.size(); }
+
+  Renderer& renderer() { return renderer_; }
+  const TechniqueSettings& settings() const { return prepared_->settings; }
+  const Stats& stats() const { return stats_; }  // of the last frame: counts
+  const RayScene& rayScene() const { return prepared_->transport->rayScene(); }
+  SceneTransport& transport() { return *prepared_->transport; }
+  const Technique& technique() const { return *technique_; }
+
+ private:
+  std::unique_ptr<Prepared> prepared_;
+  Stats stats_;
+  std::unique_ptr<Technique> technique_;
+  Renderer renderer_;
+};
+
+}  // namespace nephroid
