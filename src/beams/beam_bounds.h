@@ -27,6 +27,7 @@ struct BeamBounds {
   float farthest;   // m along the way, past which no light comes
   uint first;       // of kChildren bounds of its parts; or its beam
   uint kind;
+  uint unused[3];  // up to four texels
 };
 
 // Across the way and, as z, along it.

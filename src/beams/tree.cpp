@@ -17,7 +17,7 @@ constexpr float kFar = 1e30f;
 constexpr float kLeastAlong = 0.05f;
 
 BeamBounds emptyBounds() {
-  return {vec2(kFar), vec2(-kFar), vec2(kFar), vec2(-kFar), 0, kFar, -kFar, 0, 0};
+  return {vec2(kFar), vec2(-kFar), vec2(kFar), vec2(-kFar), 0, kFar, -kFar, 0, 0, {}};
 }
 
 // Bits of the low half of a word, every other one.

@@ -184,6 +184,12 @@ void CommandList::drawIndexedBytes(const Program& program, const Buffer& indices
     vkCmdDrawIndexed(commandBuffer_, range.count, instanceCount, range.first, range.vertexOffset, 0);
 }
 
+void CommandList::drawIndirectBytes(const Program& program, const Buffer& command,
+                                    std::span<const std::byte> constants, Bindings bindings) {
+  bind(program, constants, bindings);
+  vkCmdDrawIndirect(commandBuffer_, command.handle(), 0, 1, sizeof(VkDrawIndirectCommand));
+}
+
 void CommandList::clear(const Image& image, vec4 color) {
   const VkImageSubresourceRange all{image.aspect(), 0, image.options().mipLevels, 0, image.layerCount()};
   const VkClearColorValue value = clearValue(color).color;

@@ -93,6 +93,13 @@ class CommandList {
     drawIndexedBytes(program, indices, range, instanceCount, bytesOf(constants), bindings);
   }
 
+  // What the VkDrawIndirectCommand at the beginning of `command` tells.
+  template <class Constants>
+  void drawIndirect(const Program& program, const Buffer& command, const Constants& constants,
+                    Bindings bindings = {}) {
+    drawIndirectBytes(program, command, bytesOf(constants), bindings);
+  }
+
   void clear(const Image& image, vec4 color);
   void fill(const Buffer& buffer, uint32_t word);
   void copy(const Buffer& from, const Buffer& to, VkDeviceSize bytes, VkDeviceSize fromOffset = 0,
@@ -122,6 +129,8 @@ class CommandList {
                  std::span<const std::byte> constants, Bindings bindings);
   void drawIndexedBytes(const Program& program, const Buffer& indices, const IndexRange& range,
                         uint32_t instanceCount, std::span<const std::byte> constants, Bindings bindings);
+  void drawIndirectBytes(const Program& program, const Buffer& command, std::span<const std::byte> constants,
+                         Bindings bindings);
   void bind(const Program& program, std::span<const std::byte> constants, Bindings bindings);
   void writeTimestamp(uint32_t query);
 

@@ -40,6 +40,7 @@ struct Features {
         {"scalarBlockLayout", &v12.scalarBlockLayout},
         {"bufferDeviceAddress", &v12.bufferDeviceAddress},
         {"independentBlend", &all.features.independentBlend},
+        {"largePoints", &all.features.largePoints},
         {"fragmentStoresAndAtomics", &all.features.fragmentStoresAndAtomics},
         {"vertexPipelineStoresAndAtomics", &all.features.vertexPipelineStoresAndAtomics},
     });

@@ -72,6 +72,7 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       directLight_(device, transport.scene(), shadowMapSizeOf(settings)),
       shafts_(device, transport.scene(), settings.size, settings.shafts) {
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
+  technique_.reserve(settings.size);
 }
 
 void Renderer::resize(uvec2 size) {
@@ -89,6 +90,12 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
   onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
   ensureImages();
 
+  do drawFrame(passes);
+  while (!technique_.finish());
+  return summedByName(passes);
+}
+
+void Renderer::drawFrame(std::vector<PassTime>& passes) {
   const auto onDevice = [&](const std::function<void(gpu::CommandList&)>& record) {
     const std::vector<PassTime> some = device_.submitAndWait(record);
     passes.insert(passes.end(), some.begin(), some.end());
@@ -101,13 +108,9 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
     sight_.record(commands, gpuScene_, images_);
     if (!shafts_) illuminate(commands);
   });
-  if (shafts_) {
-    onHost(passes, "planes in the air",
-           [&] { shafts_.choosePlanes(directLight_, gpuScene_, images_.depth); });
-    onDevice([&](gpu::CommandList& commands) { illuminate(commands); });
-  }
-  technique_.finish();
-  return summedByName(passes);
+  if (!shafts_) return;
+  onHost(passes, "planes in the air", [&] { shafts_.choosePlanes(directLight_, gpuScene_, images_.depth); });
+  onDevice([&](gpu::CommandList& commands) { illuminate(commands); });
 }
 
 // What the frame has found is lit, and put together.

@@ -60,6 +60,7 @@ TechniqueMeter::TechniqueMeter(gpu::Device& deviceToUse, const Scene& sceneToRea
       positions(pointImage(device, "sensor positions", sensor, *technique)),
       normals(pointImage(device, "sensor normals", sensor, *technique)),
       caustics(pointImage(device, "sensor caustics", sensor, *technique)) {
+  technique->reserve({positions.width(), positions.height()});
   uploadNormals();
 }
 
@@ -96,14 +97,16 @@ SensorLayer TechniqueMeter::read() {
   gpuScene.place(scene);
   transport.place(scene);
   technique->update(gpuScene);
-  device.submitAndWait([&](gpu::CommandList& commands) { technique->record(commands, gpuScene); });
-  SensorLayer layer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
+  SensorLayer layer;
   const uint32_t passes = technique->coversSquares() ? 1 : kPasses;
-  for (uint32_t pass = 0; pass < passes * passes; ++pass) {
-    uploadPoints((vec2(float(pass % passes), float(pass / passes)) + 0.5f) / float(passes));
-    addShaded(layer);
-  }
-  technique->finish();
+  do {
+    layer.assign(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
+    device.submitAndWait([&](gpu::CommandList& commands) { technique->record(commands, gpuScene); });
+    for (uint32_t pass = 0; pass < passes * passes; ++pass) {
+      uploadPoints((vec2(float(pass % passes), float(pass / passes)) + 0.5f) / float(passes));
+      addShaded(layer);
+    }
+  } while (!technique->finish());
   const float points = float(pointsAlongTexel(*technique) * passes);
   for (vec3& lux : layer) lux /= points * points;
   return layer;

@@ -36,6 +36,9 @@ class Automatic final : public Technique {
     if (isWaterThere) parts.push_back(makeLightVolumes(own));
   }
 
+  void reserve(uvec2 size) override {
+    for (const auto& part : parts) part->reserve(size);
+  }
   void update(GpuScene& gpuScene) override {
     for (const auto& part : parts) part->update(gpuScene);
   }
@@ -49,8 +52,10 @@ class Automatic final : public Technique {
   bool coversSquares() const override {
     return std::ranges::all_of(parts, [](const auto& part) { return part->coversSquares(); });
   }
-  void finish() override {
-    for (const auto& part : parts) part->finish();
+  bool finish() override {
+    bool isDone = true;
+    for (const auto& part : parts) isDone = part->finish() && isDone;
+    return isDone;
   }
 
  private:

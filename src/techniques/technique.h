@@ -29,6 +29,9 @@ class Technique {
   Technique& operator=(const Technique&) = delete;
   virtual ~Technique() = default;
 
+  // Once, before all else: the images of points that `shade` will be asked for are of this size.
+  virtual void reserve(uvec2 /*size*/) {}
+
   // What the host does in a frame: rays, beams, planes, of the scene that the technique's transport was
   // placed in. Nothing is in use by the device.
   virtual void update(GpuScene& gpuScene) = 0;
@@ -40,8 +43,9 @@ class Technique {
   // and not what its centre gets.
   virtual bool coversSquares() const { return false; }
 
-  // After the device has done a frame's work.
-  virtual void finish() {}
+  // After the device has done a frame's work. False where a list turned out too short, and is longer now:
+  // all from `record` on is to be done again.
+  virtual bool finish() { return true; }
 
   // Adds to `causticsLux` (rgba32f, the size of the points) the illuminance (lux) on each receiver point by
   // light that met a caster, in the region asked for. May be called several times a frame. Synchronised with

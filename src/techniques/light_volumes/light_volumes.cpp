@@ -5,7 +5,9 @@
 #include "beams/tree.h"
 #include "gpu/command_list.h"
 #include "gpu/program.h"
-#include "shaders/light_volumes_comp.h"
+#include "shaders/beam_on_patch_frag.h"
+#include "shaders/beam_on_patch_vert.h"
+#include "shaders/patches_comp.h"
 #include "techniques/light_beams.h"
 #include "techniques/light_volumes/shader_data.h"
 
@@ -13,49 +15,76 @@ namespace nephroid {
 namespace {
 
 struct Counts {
-  uint32_t tested, culled, drawn;
+  uint32_t tested, culled, drawn, wanted;
+};
+
+// Draws that a frame starts with room for: more than most need.
+constexpr VkDeviceSize kDrawsAPixel = 2;
+constexpr BeamDrawCommand kNoDraws{0, 1, 0, 0, 0};
+
+// A list in an image of `texels` to each, as beam_texels.glsl.h reads it, and where the host writes it.
+template <class T>
+class TexelList {
+ public:
+  explicit TexelList(std::string nameOf) : name(std::move(nameOf)) {}
+
+  void write(gpu::Device& device, const std::vector<T>& values) {
+    const auto rows = uint32_t((values.size() + kInRow - 1) / kInRow);
+    if (!texels || texels.height() < rows) {
+      const uint32_t roomy = rows + rows / 2 + 1;
+      texels = gpu::createImage(
+          device, name, {.format = VK_FORMAT_R32G32B32A32_UINT, .width = kInRow * kTexels, .height = roomy});
+      upload = gpu::createBuffer(device, name, sizeof(T) * kInRow * roomy, gpu::MemoryKind::upload);
+    }
+    upload.write(values);
+  }
+  void copy(gpu::CommandList& commands) const { commands.copy(upload, 0, texels); }
+  const gpu::Image& image() const { return texels; }
+
+ private:
+  static constexpr uint32_t kTexels = sizeof(T) / sizeof(uvec4), kInRow = kTexelsInRow / kTexels;
+  std::string name;
+  gpu::Image texels;
+  gpu::Buffer upload;
 };
 
 class LightVolumes final : public Technique {
  public:
   explicit LightVolumes(const TechniqueContext& context);
 
+  void reserve(uvec2 size) override;
   void update(GpuScene& gpuScene) override;
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;
   bool coversSquares() const override { return true; }
-  void finish() override;
+  bool finish() override;
 
  private:
-  // A list on the device, and where the host writes it.
-  struct Sent {
-    gpu::Buffer upload, onDevice;
-    VkDeviceSize bytes = 0;
-
-    template <class T>
-    void write(gpu::Device& on, const char* name, const std::vector<T>& values) {
-      bytes = values.size() * sizeof(T);
-      gpu::ensureBuffer(on, upload, name, bytes, gpu::MemoryKind::upload);
-      gpu::ensureBuffer(on, onDevice, name, bytes);
-      upload.write(values);
-    }
-    void copy(gpu::CommandList& commands) const { commands.copy(upload, onDevice, bytes); }
-  };
-
   gpu::Device& device;
   const TechniqueSettings settings;
   Stats& stats;
   SceneTransport& transport;
   const Casters casters;
   const TransportSource& source;
-  gpu::Program program;
+  gpu::Program patches, beamOnPatch;
   gpu::Buffer counts, countsRead;
+  gpu::Buffer draws, noDraws, command;
+  gpu::Image axesU, axesV;  // of the squares that pixels show
 
   // Of the frame being made.
   BeamTree tree;
-  Sent beams, bounds, still;
+  TexelList<Beam> beams{"light volumes"};
+  TexelList<BeamBounds> bounds{"bounds of light volumes"};
+  gpu::Buffer still;
 };
+
+gpu::RasterState stateOfDraws() {
+  gpu::RasterState state;
+  state.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}};
+  state.topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
+  return state;
+}
 
 LightVolumes::LightVolumes(const TechniqueContext& context)
     : device(context.device),
@@ -64,11 +93,17 @@ LightVolumes::LightVolumes(const TechniqueContext& context)
       transport(context.transport),
       casters(context.casters),
       source(transport.source()),
-      program(gpu::createComputeProgram(
-          device, "light volumes", shaders::light_volumes_comp,
-          {{0, settings.cosine == Cosine::stillWater}, {1, settings.culling == Culling::flat}, {2, 1}})),
+      patches(gpu::createComputeProgram(device, "patches", shaders::patches_comp,
+                                        {{0, settings.culling == Culling::flat}})),
+      beamOnPatch(gpu::createRasterProgram(device, "beam on a patch", shaders::beam_on_patch_vert,
+                                           shaders::beam_on_patch_frag, stateOfDraws(),
+                                           {{0, settings.cosine == Cosine::stillWater}})),
       counts(gpu::createBuffer(device, "counts of light volumes", sizeof(Counts))),
-      countsRead(gpu::createBuffer(device, "counts to read", sizeof(Counts), gpu::MemoryKind::readback)) {}
+      countsRead(gpu::createBuffer(device, "counts to read", sizeof(Counts), gpu::MemoryKind::readback)),
+      noDraws(gpu::createBuffer(device, "no draws", sizeof(BeamDrawCommand), gpu::MemoryKind::upload)),
+      command(gpu::createBuffer(device, "draws of beams", sizeof(BeamDrawCommand))) {
+  noDraws.write(std::vector{kNoDraws});
+}
 
 // The way that most of the light goes.
 vec4 meanDirection(const std::vector<Beam>& beams) {
@@ -77,6 +112,12 @@ vec4 meanDirection(const std::vector<Beam>& beams) {
     sum += double(beam.flux.x + beam.flux.y + beam.flux.z) *
            glm::dvec3(beam.direction[0] + beam.direction[1] + beam.direction[2]);
   return vec4(vec3(sum / std::max(glm::length(sum), 1e-300)), 0);
+}
+
+void LightVolumes::reserve(uvec2 size) {
+  axesU = gpu::createImage(device, "first axes of squares", {.width = size.x, .height = size.y});
+  axesV = gpu::createImage(device, "second axes of squares", {.width = size.x, .height = size.y});
+  gpu::ensureBuffer(device, draws, "beams on patches", kDrawsAPixel * size.x * size.y * sizeof(BeamDraw));
 }
 
 void LightVolumes::update(GpuScene&) {
@@ -89,9 +130,11 @@ void LightVolumes::update(GpuScene&) {
     directions.push_back(meanDirection(portions.back()));
   }
   tree = buildBeamTree(portions);
-  beams.write(device, "light volumes", tree.beams);
-  bounds.write(device, "bounds of light volumes", tree.bounds);
-  still.write(device, "directions through still water", directions);
+  beams.write(device, tree.beams);
+  bounds.write(device, tree.bounds);
+  gpu::ensureBuffer(device, still, "directions through still water", directions.size() * sizeof(vec4),
+                    gpu::MemoryKind::upload);
+  still.write(directions);
 }
 
 void LightVolumes::record(gpu::CommandList& commands, GpuScene&) {
@@ -99,7 +142,6 @@ void LightVolumes::record(gpu::CommandList& commands, GpuScene&) {
   commands.pass("light volumes", [&] {
     beams.copy(commands);
     bounds.copy(commands);
-    still.copy(commands);
     commands.fill(counts, 0);
   });
 }
@@ -107,31 +149,41 @@ void LightVolumes::record(gpu::CommandList& commands, GpuScene&) {
 void LightVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& points,
                          const gpu::Image& causticsLux) {
   if (tree.beams.empty()) return;
-  const gpu::Region region =
-      points.region.value_or(gpu::Region{{0, 0}, {causticsLux.width(), causticsLux.height()}});
-  LightVolumeConstants constants{};
-  constants.beams = beams.onDevice.address();
-  constants.bounds = bounds.onDevice.address();
-  constants.still = still.onDevice.address();
-  constants.counts = counts.address();
-  constants.root = tree.root;
-  constants.corner = region.corner;
-  constants.size = ivec2(region.size);
-  const uvec2 tiles = (uvec2(constants.size) + kTileSize - 1u) / kTileSize;
-  commands.pass("caustics", [&] {
-    commands.dispatch(program, {tiles.x * kThreads, tiles.y, 1}, constants,
-                      {*points.position, *points.normal, causticsLux});
+  const uvec2 imageSize(causticsLux.width(), causticsLux.height());
+  const gpu::Region region = points.region.value_or(gpu::Region{{0, 0}, imageSize});
+  const uvec2 tiles = (region.size + kTileSize - 1u) / kTileSize;
+  PatchConstants listing{};
+  listing.counts = counts.address();
+  listing.draws = draws.address();
+  listing.command = command.address();
+  listing.room = uint32_t(draws.size() / sizeof(BeamDraw));
+  listing.root = tree.root;
+  listing.corner = region.corner;
+  listing.size = ivec2(region.size);
+  const BeamDrawConstants drawing{still.address(), draws.address(), vec2(imageSize)};
+  commands.pass("beams on patches", [&] {
+    commands.copy(noDraws, command, sizeof(BeamDrawCommand));
     commands.barrier();
-    commands.copy(counts, countsRead, sizeof(Counts));
+    commands.dispatch(patches, {(tiles.x + kTilesInGroup - 1) / kTilesInGroup * kThreads, tiles.y, 1},
+                      listing,
+                      {*points.position, *points.normal, axesU, axesV, bounds.image(), beams.image()});
   });
+  drawCaustics(commands, points, causticsLux, [&] {
+    commands.drawIndirect(beamOnPatch, command, drawing, {*points.position, axesU, axesV, beams.image()});
+  });
+  commands.barrier();
+  commands.copy(counts, countsRead, sizeof(Counts));
 }
 
-void LightVolumes::finish() {
+bool LightVolumes::finish() {
   const Counts counted = tree.beams.empty() ? Counts{} : countsRead.as<Counts>()[0];
   setCount(stats, "light_volumes", tree.beams.size());
   setCount(stats, "bounds_tested", counted.tested);
   setCount(stats, "bounds_culled", counted.culled);
   setCount(stats, "volumes_drawn", counted.drawn);
+  if (counted.wanted == 0) return true;
+  gpu::ensureBuffer(device, draws, "beams on patches", counted.wanted * sizeof(BeamDraw));
+  return false;
 }
 
 }  // namespace

@@ -7,12 +7,6 @@
 #include "beams/footprint.h"
 
 #ifndef __cplusplus
-layout(buffer_reference, scalar) readonly buffer LightVolumes {
-  Beam beam[];
-};
-layout(buffer_reference, scalar) readonly buffer LightVolumeBounds {
-  BeamBounds bounds[];
-};
 // The way that light of a portion would go through still water.
 layout(buffer_reference, scalar) readonly buffer StillDirections {
   vec4 direction[];
@@ -20,30 +14,79 @@ layout(buffer_reference, scalar) readonly buffer StillDirections {
 layout(buffer_reference, scalar) buffer LightVolumeCounts {
   uint tested;  // bounds
   uint culled;  // of these, with all that is in them
-  uint drawn;   // beams on blocks of pixels
+  uint drawn;   // beams on patches
+  uint wanted;  // the most draws that any list had or would have had room for
 };
 #endif
 
 SHARED_BEGIN
 
-// A workgroup's square of pixels.
-SHARED_CONSTANT uint kTileSize = 16u;
+// A subgroup's square of pixels.
+SHARED_CONSTANT uint kTileSize = 8u;
+SHARED_CONSTANT uint kTilePixels = kTileSize * kTileSize;
+// A tile has four of these.
+SHARED_CONSTANT uint kBlockSize = 4u;
+// A workgroup's row of tiles.
+SHARED_CONSTANT uint kTilesInGroup = 8u;
 SHARED_CONSTANT uint kThreads = 64u;
+// Of the images that hold beams and bounds.
+SHARED_CONSTANT uint kTexelsInRow = 4096u;
+SHARED_CONSTANT uint kTexelsOfBounds = 4u;
+SHARED_CONSTANT uint kTexelsOfBeam = 6u;
+// Pixels of a tile that show nearly one plane are a patch; the last takes all others.
+SHARED_CONSTANT uint kMostPatches = 4u;
 
-struct LightVolumeConstants {
-  BUFFER_ADDRESS(LightVolumes) beams;
-  BUFFER_ADDRESS(LightVolumeBounds) bounds;
-  BUFFER_ADDRESS(StillDirections) still;
+// A beam on the pixels of one patch that it may light.
+struct BeamDraw {
+  uint beam;
+  uint portion;
+  uint corner;  // x and y of the first pixel, 16 bits each
+  uint square;  // the number of pixels along a side; 8 bits and above, the patch as squareV tells it
+};
+
+// VkDrawIndirectCommand, and how many draws were asked for.
+struct BeamDrawCommand {
+  uint vertices;
+  uint instances;
+  uint firstVertex;
+  uint firstInstance;
+  uint asked;
+};
+
+SHARED_END
+
+#ifndef __cplusplus
+layout(buffer_reference, scalar) buffer BeamDraws {
+  BeamDraw draw[];
+};
+layout(buffer_reference, scalar) buffer BeamDrawCommands {
+  BeamDrawCommand command;
+};
+#endif
+
+SHARED_BEGIN
+
+struct PatchConstants {
   BUFFER_ADDRESS(LightVolumeCounts) counts;
+  BUFFER_ADDRESS(BeamDraws) draws;
+  BUFFER_ADDRESS(BeamDrawCommands) command;
+  uint room;  // draws that there is room for
   uint root;
   ivec2 corner;  // of the region, pixels
   ivec2 size;
 };
 
+struct BeamDrawConstants {
+  BUFFER_ADDRESS(StillDirections) still;
+  BUFFER_ADDRESS(BeamDraws) draws;
+  vec2 imageSize;  // pixels
+};
+
 SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(nephroid::LightVolumeConstants) == 56 && sizeof(nephroid::BeamBounds) == 52);
+static_assert(sizeof(nephroid::PatchConstants) == 48 && sizeof(nephroid::BeamDrawConstants) == 24 &&
+              sizeof(nephroid::BeamBounds) == 64 && sizeof(nephroid::Beam) == 96);
 #endif
 
 #endif
