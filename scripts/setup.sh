@@ -11,6 +11,7 @@ packages=(
   libembree-dev libtbb-dev libglm-dev
   libtinygltf-dev libtinyobjloader-dev libassimp-dev libopenmesh-dev libtomlplusplus-dev
   libopenexr-dev libpng-dev libcli11-dev nlohmann-json3-dev libxxhash-dev
+  libfftw3-dev                                  # the sea's spectrum
   libopenvdb-dev libboost-dev                   # density grids of the air
   libglfw3-dev libimgui-dev                     # the viewer's window
   glmark2-data                                  # the bunny, the cat and the horse

@@ -93,12 +93,50 @@ struct Wave {
   float phase = 0;       // radians
 };
 
+// A drop that has fallen into simulated water: a dent, with the water it drives out heaped up around it.
+struct WaterDrop {
+  float time = 0;       // s
+  vec2 position{0};     // m, (x, z)
+  float radius = 0.1f;  // m
+  float depth = 0.02f;  // m, in its middle
+};
+
+// What moves through simulated water, upright and round, with a rim that falls off as a Gaussian.
+struct WaterObstacle {
+  float radius = 0.1f;     // m
+  float depth = 0.02f;     // m that it reaches down in its middle
+  std::vector<vec3> path;  // x, z (m) and time (s), which rises; it stands still before and after
+};
+
+// The wave equation on the water's grid, with walls that send waves back along its sides; still at time 0.
+struct WaveSimulation {
+  float speed = 1;    // m/s, of all waves
+  float damping = 0;  // 1/s
+  std::vector<WaterDrop> drops;
+  std::vector<WaterObstacle> obstacles;
+};
+
+enum class SpectrumShape { jonswap, phillips };
+
+// The sea as a sum of waves of random phases over its spectrum, which repeats at the water's sides.
+struct OceanSpectrum {
+  SpectrumShape shape = SpectrumShape::jonswap;
+  vec2 wind{5, 0};                                       // m/s, in (x, z), 10 m above the water
+  float fetch = 1e4f;                                    // m of water that the wind has blown over (JONSWAP)
+  float depth = std::numeric_limits<float>::infinity();  // m, of the water
+  float significantHeight = 0;                           // m; 0: that of wind and fetch
+  float choppiness = 0;                                  // 1: crests as sharp as those of Gerstner's waves
+  uint32_t seed = 0;
+};
+
 // The height field behind a mesh of the shape "water": y = sum of amplitude sin(2 pi / wavelength (direction
-// . (x, z) - speed t) + phase).
+// . (x, z) - speed t) + phase), and on it what is simulated and the sea.
 struct Water {
   vec2 size{1, 1};   // m
-  uvec2 grid{2, 2};  // vertices along x and z
+  uvec2 grid{2, 2};  // vertices along x and z; 0: the mesh is from a file
   std::vector<Wave> waves;
+  std::optional<WaveSimulation> simulation{};
+  std::optional<OceanSpectrum> ocean{};
 };
 
 struct Object {

@@ -22,7 +22,7 @@ Medium readMedium(TomlTable table, const std::filesystem::path& folder);
 std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene);
 
 // The mesh of an [[object]] that has a `shape`; sets object.water for water.
-Mesh readShape(TomlTable& table, Object& object, double time);
+Mesh readShape(TomlTable& table, Object& object, const Scene& scene);
 
 // The key `name`, or `byDefault`; an error where one of `existing` has it already.
 template <class Named>

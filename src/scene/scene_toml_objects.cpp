@@ -148,7 +148,7 @@ class ObjectReader {
     if (table.has("import")) return import(table, object.name);
     object.material = materialNamed(table, scene_);
     const ObjectTransform transform = readTransform(table);
-    object.mesh = table.has("mesh") ? meshFrom(table) : added(readShape(table, object, scene_.time));
+    object.mesh = table.has("mesh") ? meshFrom(table) : added(readShape(table, object, scene_));
     object.placement = fitted(transform, boundingBox(scene_.meshOf(object)));
     table.finish();
     scene_.objects.push_back(object);

@@ -281,39 +281,4 @@ Mesh makePlane(vec2 size, Density density) {
   return finished(std::move(mesh), "plane");
 }
 
-WaterPoint waterAt(const Water& water, glm::dvec2 xz, double time) {
-  WaterPoint point{0, glm::dvec2(0)};
-  for (const Wave& wave : water.waves) {
-    const glm::dvec2 direction = wave.direction;
-    const double k = kTurn / wave.wavelength;
-    const double argument = k * (glm::dot(direction, xz) - wave.speed * time) + wave.phase;
-    point.height += wave.amplitude * std::sin(argument);
-    point.slope += wave.amplitude * k * std::cos(argument) * direction;
-  }
-  return point;
-}
-
-Mesh makeWater(const Water& water, double time) {
-  const glm::dvec2 half = 0.5 * glm::dvec2(water.size);
-  const uvec2 cells = water.grid - 1u;
-  Mesh mesh;
-  mesh.name = "water";
-  for (uint32_t j = 0; j <= cells.y; ++j) {
-    for (uint32_t i = 0; i <= cells.x; ++i) {
-      const glm::dvec2 xz{between(-half.x, half.x, i, cells.x), between(-half.y, half.y, j, cells.y)};
-      const WaterPoint point = waterAt(water, xz, time);
-      addVertex(mesh, {{xz.x, point.height, xz.y}, glm::normalize(dvec3(-point.slope.x, 1, -point.slope.y))});
-    }
-  }
-  for (uint32_t j = 0; j < cells.y; ++j) {
-    for (uint32_t i = 0; i < cells.x; ++i) {
-      const uint32_t a = j * water.grid.x + i, b = a + 1, d = a + water.grid.x, c = d + 1;
-      mesh.triangles.emplace_back(a, d, b);
-      mesh.triangles.emplace_back(b, d, c);
-    }
-  }
-  mesh.isCurved = true;
-  return mesh;
-}
-
 }  // namespace nephroid

@@ -116,6 +116,18 @@ std::optional<vec3> TomlTable::vector3(const std::string& key, Range range) {
   return vec3(v[0], v[1], v[2]);
 }
 
+std::vector<vec3> TomlTable::vectors3(const std::string& key) {
+  const toml::node* node = find(key);
+  std::vector<vec3> vectors;
+  if (!node) return vectors;
+  if (!node->is_array()) fail(key, "must be a list of arrays of 3 numbers");
+  for (const toml::node& element : *node->as_array()) {
+    const auto v = numbers(key, element, 3, kAnyNumber, false);
+    vectors.emplace_back(v[0], v[1], v[2]);
+  }
+  return vectors;
+}
+
 std::optional<vec3> TomlTable::numberOrRgb(const std::string& key, Range range) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;

@@ -38,6 +38,7 @@ class TomlTable {
   std::optional<int64_t> integer(const std::string& key, Range range);
   std::optional<vec2> vector2(const std::string& key, Range range = kAnyNumber);
   std::optional<vec3> vector3(const std::string& key, Range range = kAnyNumber);
+  std::vector<vec3> vectors3(const std::string& key);  // a list of them; empty where the key is missing
   std::optional<vec3> numberOrRgb(const std::string& key, Range range);
   std::optional<uvec2> integers2(const std::string& key, Range range);
   std::vector<TomlTable> tables(const std::string& key);

@@ -1,0 +1,16 @@
+// The shape "water" of a scene file.
+#pragma once
+
+#include "scene/scene.h"
+#include "scene/shapes.h"
+#include "scene/toml_table.h"
+
+namespace nephroid {
+
+// "segments" or "vertices".
+Density readDensity(TomlTable& table);
+
+// At the scene's time; sets object.water.
+Mesh readWater(TomlTable& table, Object& object, const Scene& scene);
+
+}  // namespace nephroid
