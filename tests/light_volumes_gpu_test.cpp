@@ -41,6 +41,9 @@ class LightVolumesGpuTest : public GpuTest {
     settings.technique = "light-volumes";
     settings.source = Source::traced;
     settings.culling = culling;
+    settings.paths = paths;
+    settings.shadowTolerance = shadowTolerance;
+    settings.contributionError = contributionError;
     Progress progress;
     Stats stats;
     std::vector<double> lux;
@@ -48,6 +51,10 @@ class LightVolumesGpuTest : public GpuTest {
       lux.push_back(double(texel.y));
     return lux;
   }
+
+  float shadowTolerance = TechniqueSettings{}.shadowTolerance;
+  float contributionError = 0;
+  Paths paths = Paths::transmission;
 };
 
 double transmittance(double cosIncident) {
@@ -147,6 +154,89 @@ TEST_F(LightVolumesGpuTest, HalvesOfTheWaterAddUpToTheWhole) {
   double flux;
   EXPECT_LT(relativeError(sum, whole, &flux), 0.01);
   EXPECT_NEAR(flux, 1, 1e-3);
+}
+
+// Still water throws the part of the sun that Fresnel says onto a wall above it, as high as the water is
+// long.
+TEST_F(LightVolumesGpuTest, WaterThrowsLightOntoWallsAboveIt) {
+  Water water;
+  water.size = {2, 2};
+  water.grid = {50, 50};
+  const Scene scene = waterOverBed(water, 1, {1, -0.5f, 0});
+  paths = Paths::all;
+  const double cosIncident = double(-scene.lights[0].direction.y);
+  for (const double lux :
+       measure(scene, {"wall", {1.5f, 0.9f, -0.3f}, {0, 0, 0.6f}, {0, -0.5f, 0}, {12, 12}}))
+    EXPECT_NEAR(lux, kLux * std::sin(std::acos(cosIncident)) * (1 - transmittance(cosIncident)),
+                0.005 * kLux);
+  for (const double lux : measure(scene, {"above", {1.5f, 1.5f, -0.3f}, {0, 0, 0.6f}, {0, -0.2f, 0}, {4, 4}}))
+    EXPECT_EQ(lux, 0);
+}
+
+// What changes unevenly from one sixtieth of a second to the next is the light, not the grid.
+TEST_F(LightVolumesGpuTest, MovingWaterFlickersNoMoreThanOnAFinerGrid) {
+  Water water = choppyWater();
+  water.size = {3, 3};
+  for (Wave& wave : water.waves) wave.speed = 0.8f;
+  const Sensor sensor{"bed", {-0.4f, -1, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, {32, 32}};
+  const auto flicker = [&](uint32_t grid) {
+    water.grid = uvec2(grid);
+    std::vector<std::vector<double>> frames;
+    double sum = 0;
+    for (int frame = 0; frame < 5; ++frame) {
+      Scene scene = waterOverBed(water, 1, {0.2f, -1, 0.1f});
+      scene.meshes[0] = makeWater(water, frame / 60.0);
+      frames.push_back(measure(scene, sensor));
+      for (std::size_t i = 0; frame >= 2 && i < frames[0].size(); ++i)
+        sum += std::abs(frames[std::size_t(frame)][i] - 2 * frames[std::size_t(frame - 1)][i] +
+                        frames[std::size_t(frame - 2)][i]);
+    }
+    return sum;
+  };
+  EXPECT_LT(flicker(150), 1.1 * flicker(300));
+}
+
+// A cell with more of its corners in shadow than the tolerance passes no light; all else passes all of it.
+TEST_F(LightVolumesGpuTest, ShadowToleranceLeavesOutCellsMostlyInShadow) {
+  const Sensor sensor{"bed", {-1, -1, -1}, {2, 0, 0}, {0, 0, 2}, {32, 32}};
+  Scene scene = waterOverBed(choppyWater(), 1, {0, -1, 0});
+  scene.meshes.push_back(makeBox({0.8f, 0.1f, 0.8f}));
+  Object box;
+  box.mesh = 2;
+  box.material = 1;
+  box.placement.translation = {0.013f, 1, 0.007f};
+  box.placement.rotation = glm::angleAxis(0.6f, vec3(0, 1, 0));
+  scene.objects.push_back(box);
+  const auto fluxAt = [&](float tolerance) {
+    shadowTolerance = tolerance;
+    double sum = 0;
+    for (const double lux : measure(scene, sensor)) sum += lux;
+    return sum;
+  };
+  const double exact = fluxAt(1), usual = fluxAt(0.65f), none = fluxAt(0);
+  // The rim of the shadow is 3.2 m of 5 cm cells on 4 m2: 4 %. Of these a part has three dark corners, with
+  // an eighth of their light; all of them have one.
+  EXPECT_LT(usual, exact);
+  EXPECT_GT(usual, exact * (1 - 0.04 / 8));
+  EXPECT_LT(none, usual);
+  EXPECT_GT(none, exact * (1 - 0.04 * 1.3));
+}
+
+TEST_F(LightVolumesGpuTest, NoMoreThanTheContributionErrorIsLeftOut) {
+  const Sensor sensor{"bed", {-3, -1, -3}, {6, 0, 0}, {0, 0, 6}, {24, 24}};
+  const Scene scene = waterOverBed(choppyWater(), 1, {1, -1, 0.1f});
+  const auto sumOf = [&](float part) {
+    contributionError = part;
+    double sum = 0;
+    for (const double lux : measure(scene, sensor)) sum += lux;
+    return sum;
+  };
+  const double whole = sumOf(0);
+  for (const float part : {0.01f, 0.2f}) {
+    const double kept = sumOf(part) / whole;
+    EXPECT_GT(kept, 1 - double(part) - 1e-3);
+    EXPECT_LT(kept, 1 - 0.9 * double(part));  // and not much less
+  }
 }
 
 TEST_F(LightVolumesGpuTest, TheHierarchyChangesNothing) {

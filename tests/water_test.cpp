@@ -10,6 +10,7 @@
 #include "scene/shapes.h"
 #include "scene/wave_simulation.h"
 #include "scratch_files.h"
+#include "techniques/sources.h"
 
 namespace nephroid {
 namespace {
@@ -228,6 +229,27 @@ TEST(Ocean, ChoppinessSharpensCrests) {
   EXPECT_LT(skewness(), smooth - 1e-3);
 }
 
+// The rays of a scene that is there meet the water where it has moved to.
+TEST(MovingWater, IsWhereItIsInTheTransport) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.materials[0].type = MaterialType::dielectric;
+  Water water{{2, 2}, {51, 51}, {{0.05f, 1, {1, 0}, 0.4f, 0}}};
+  scene.meshes = {makeWater(water, 0)};
+  scene.objects.resize(1);
+  scene.objects[0].water = water;
+  const TechniqueSettings settings;
+  Progress progress;
+  SceneTransport transport(scene, settings, progress);
+  for (const double time : {0.0, 0.7, 1.1}) {
+    scene.meshes[0] = makeWater(water, time);
+    transport.place(scene);
+    Hit hit;
+    ASSERT_TRUE(transport.rayScene().intersect({{0.31f, 1, 0.1f}, {0, -1, 0}}, hit));
+    EXPECT_NEAR(double(hit.position.y), waterAt(water, {0.31, 0.1}, time).height, 1e-4) << time;
+  }
+}
+
 class WaterScene : public ScratchFiles {
  protected:
   void SetUp() override {
@@ -267,7 +289,7 @@ TEST_F(WaterScene, TellsWhatIsWrong) {
             std::string::npos);
   EXPECT_NE(errorOf("ocean = {wind = [0, 0]}\n").find("wind"), std::string::npos);
   EXPECT_NE(errorOf("ocean = {spectrum = \"jonswop\"}\n").find("jonswap"), std::string::npos);
-  EXPECT_NE(errorOf("sequence = \"0.obj\"\n").find("#"), std::string::npos);
+  EXPECT_NE(errorOf("sequence = \"0.obj\"\n").find('#'), std::string::npos);
   EXPECT_NE(errorOf("sequence = \"#.obj\"\ngrid = [2, 2]\n").find("grid"), std::string::npos);
   EXPECT_NE(errorOf("sequence = \"##.obj\"\n").find("00.obj"), std::string::npos);
 }

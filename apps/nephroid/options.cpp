@@ -146,6 +146,19 @@ void addField(CLI::App& command, const SettingField& field, TechniqueSettings& s
       ->group("Technique");
 }
 
+void addPart(CLI::App& command, const PartField& field, TechniqueSettings& settings) {
+  const auto check = [](const std::string& text) -> std::string {
+    float part = 0;
+    if (CLI::detail::lexical_cast(text, part) && part >= 0 && part <= 1) return {};
+    return "'" + text + "' is not a number from 0 to 1";
+  };
+  command.add_option(std::string("--") + field.flag, settings.*field.member, field.help)
+      ->check(CLI::Validator(check, "(0 to 1)"))
+      ->type_name("PART")
+      ->capture_default_str()
+      ->group("Technique");
+}
+
 void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown) {
   const std::vector<std::string> names = techniqueList();
   command.add_option("--technique", settings.technique, "How caustics are made: " + joined(names))
@@ -180,6 +193,7 @@ void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool i
       ->type_name("FILE")
       ->group("Technique");
   for (const SettingField& field : settingFields()) addField(command, field, settings, isSensorKnown);
+  for (const PartField& field : partFields()) addPart(command, field, settings);
 }
 
 void checkOutput(const fs::path& file, const fs::path& scene, std::initializer_list<const char*> extensions) {

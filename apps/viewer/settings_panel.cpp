@@ -36,6 +36,12 @@ void drawField(const SettingField& field, TechniqueSettings& settings) {
   tooltip(field.help);
 }
 
+void drawPart(const PartField& field, TechniqueSettings& settings) {
+  ImGui::SliderFloat(spelledOut(field.flag).c_str(), &(settings.*field.member), 0, 1, "%.2f",
+                     ImGuiSliderFlags_AlwaysClamp);
+  tooltip(field.help);
+}
+
 }  // namespace
 
 void drawSettingsPanel(ViewerState& state) {
@@ -45,6 +51,7 @@ void drawSettingsPanel(ViewerState& state) {
   if (!ImGui::CollapsingHeader("Technique")) return;
   for (const ChoiceField& choice : choiceFields().subspan(1)) drawChoice(choice, settings);
   for (const SettingField& field : settingFields()) drawField(field, settings);
+  for (const PartField& field : partFields()) drawPart(field, settings);
   if (ImGui::Button("Defaults")) {
     const TechniqueSettings before = settings;
     settings = {};

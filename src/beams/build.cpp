@@ -333,6 +333,18 @@ uint32_t forcedCutsFor(const Mesh& mesh, const uvec3& t, float extent) {
   return uint32_t(glm::clamp(cuts, 0.0f, float(kMaximumForcedCuts)));
 }
 
+// Whether the cell of water that a triangle is half of has more corners in shadow than the tolerance lets
+// pass.
+bool isLostToShadow(const Water& water, const VertexRays& vertices, std::size_t triangle, float tolerance) {
+  if (water.grid.x == 0) return false;
+  const std::size_t first = triangle & ~std::size_t{1};
+  const uvec3 &even = vertices.mesh.triangles[first], &odd = vertices.mesh.triangles[first + 1];
+  float dark = 0;
+  for (const uint32_t vertex : {even.x, even.y, even.z, odd.z})
+    if (vertices.rays[vertex].flags & kRayOccluded) ++dark;
+  return dark > 4 * tolerance;
+}
+
 }  // namespace
 
 vec3 fluxOnto(const ShapedLight& light, const Emitter& emitter, vec3 a, vec3 b, vec3 c) {
@@ -358,6 +370,7 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
   oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
     const std::size_t end = std::min(mesh.triangles.size(), (block + 1) * kBlock);
     for (std::size_t t = block * kBlock; t < end; ++t) {
+      if (object.water && isLostToShadow(*object.water, vertices, t, settings.shadowTolerance)) continue;
       const Surface surface = surfaceOf(object, mesh, mesh.triangles[t]);
       Triangle triangle;
       for (int i = 0; i < 3; ++i) {

@@ -22,6 +22,9 @@ struct BeamSettings {
   std::vector<PlaneGrid> targets;
   // Light is wanted on the first target itself, so rays that meet an opaque surface before it carry none.
   bool stopAtSurfaces = false;
+  // The part of a cell of water's corners that may be in shadow before the cell passes no light (Barczak and
+  // Olano, 3.4, whose leaves of several cells are counted in a shadow map).
+  float shadowTolerance = 1;
 };
 
 struct BeamSet {

@@ -85,7 +85,10 @@ std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source
                                const TechniqueSettings& settings) {
   BeamSettings refined{.refineDepth = 0, .targets = {}};
   const bool isWater = scene.objects[queries.front().query.object].water.has_value();
-  if (isWater) refined.refineDepth = settings.refineDepth;
+  if (isWater) {
+    refined.refineDepth = settings.refineDepth;
+    refined.shadowTolerance = settings.shadowTolerance;
+  }
   std::vector<Beam> beams = beamsOf(scene, source, queries, refined);
   // The grid of water is as fine as its waves.
   if (isWater || !source.refines() || settings.refineDepth == 0) return beams;
@@ -95,6 +98,24 @@ std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source
   refined.refineTolerance = 0.5f;
   refined.targets = {planeGrid(along, 0, 0), planeGrid(along, along.planes - 1, 0)};
   return beamsOf(scene, source, queries, refined);
+}
+
+void leaveOutWeakest(std::vector<std::vector<Beam>>& portions, double part) {
+  const auto fluxOf = [](const Beam& beam) { return beam.flux.x + beam.flux.y + beam.flux.z; };
+  std::vector<float> fluxes;
+  double allowed = 0;
+  for (const std::vector<Beam>& beams : portions)
+    for (const Beam& beam : beams) {
+      fluxes.push_back(fluxOf(beam));
+      allowed += part * double(fluxes.back());
+    }
+  std::ranges::sort(fluxes);
+  double sum = 0;
+  const auto firstKept =
+      std::ranges::find_if(fluxes, [&](float flux) { return (sum += double(flux)) > allowed; });
+  if (firstKept == fluxes.end()) return;
+  for (std::vector<Beam>& beams : portions)
+    std::erase_if(beams, [&](const Beam& beam) { return fluxOf(beam) < *firstKept; });
 }
 
 bool areOfOneColor(std::span<const Beam> beams) {

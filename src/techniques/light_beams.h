@@ -30,6 +30,9 @@ std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source
                                std::span<const BandQuery> queries, std::span<const ReceiverBox> boxes,
                                const TechniqueSettings& settings);
 
+// Takes the weakest beams of all portions out, which carry no more than `part` of the flux between them.
+void leaveOutWeakest(std::vector<std::vector<Beam>>& portions, double part);
+
 // Whether all have the same colour, so that one channel and a tint tell all.
 bool areOfOneColor(std::span<const Beam> beams);
 

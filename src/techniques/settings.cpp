@@ -99,4 +99,18 @@ std::span<const SettingField> settingFields() {
   return kFields;
 }
 
+std::span<const PartField> partFields() {
+  using Settings = TechniqueSettings;
+  static constexpr PartField kFields[] = {
+      {"shadow-tolerance",
+       "How much of a cell of water may be in the shadow of what stands above before its light is left out; "
+       "1: "
+       "light is left out in full shadow alone",
+       &Settings::shadowTolerance},
+      {"contribution-error", "How much of the light may be left out, the weakest light volumes first",
+       &Settings::contributionError},
+  };
+  return kFields;
+}
+
 }  // namespace nephroid

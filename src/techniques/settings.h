@@ -72,6 +72,8 @@ struct TechniqueSettings {
   uint32_t refineDepth = 2;     // times a beam may be halved along its edges
   Culling culling = Culling::hierarchical;
   Cosine cosine = Cosine::exact;
+  float shadowTolerance = 0.65f;  // the part of a cell of water that may be in shadow and still pass light
+  float contributionError = 0;    // the part of the light that light volumes may leave out
   LightInterpolation lightInterpolation = LightInterpolation::flow;
   Representation representation = Representation::shells;
   uint32_t volumeKilobytes = 360;  // of an irradiance volume, for each light direction
@@ -112,5 +114,14 @@ struct SettingField {
 };
 
 std::span<const SettingField> settingFields();
+
+// A part of a whole, from 0 to 1, among the settings.
+struct PartField {
+  const char* flag;  // without its dashes
+  const char* help;
+  float TechniqueSettings::*member;
+};
+
+std::span<const PartField> partFields();
 
 }  // namespace nephroid

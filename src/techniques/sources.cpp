@@ -81,6 +81,11 @@ void SceneTransport::place(const Scene& scene) {
   now.objects = scene.objects;
   now.materials = scene.materials;
   now.lights = scene.lights;
+  for (const Object& object : scene.objects) {
+    if (!object.water || now.meshes[object.mesh].positions == scene.meshOf(object).positions) continue;
+    now.meshes[object.mesh] = scene.meshOf(object);
+    rays.reshape(object.mesh);
+  }
   rays.place(now);
 }
 

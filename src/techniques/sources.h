@@ -33,7 +33,8 @@ class SceneTransport {
   SceneTransport(const Scene& scene, const TechniqueSettings& settings, Progress& progress,
                  SourceMaker maker = {});
 
-  // Moves all to where `scene` has it, with the objects and meshes that this was made with.
+  // Moves all to where `scene` has it, with the objects and meshes that this was made with; water may have
+  // another shape.
   void place(const Scene& scene);
 
   const Scene& scene() const { return now; }

@@ -96,8 +96,7 @@ struct TracedTriangle {
   uint32_t patch;
 };
 
-std::vector<TracedTriangle> tracedTriangles(const Mesh& mesh) {
-  const std::vector<uint32_t> patches = smoothPatches(mesh);
+std::vector<TracedTriangle> tracedTriangles(const Mesh& mesh, const std::vector<uint32_t>& patches) {
   std::vector<TracedTriangle> triangles(mesh.triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const uvec3& c = mesh.triangles[i];
@@ -159,7 +158,8 @@ struct RayScene::Impl {
     if (!device) throw RuntimeFailure("Embree could not make a device");
   }
 
-  void addMesh(const Mesh& mesh) {
+  // Its triangles' patches, and what holds them for Embree.
+  TracedMesh traced(const Mesh& mesh, const std::vector<uint32_t>& patches) const {
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<vec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.positions.size()));
@@ -175,7 +175,18 @@ struct RayScene::Impl {
     rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene.get());
-    meshes.push_back({&mesh, tracedTriangles(mesh), std::move(scene), volumeOf(mesh)});
+    return {&mesh, tracedTriangles(mesh, patches), std::move(scene), volumeOf(mesh)};
+  }
+
+  void addMesh(const Mesh& mesh) { meshes.push_back(traced(mesh, smoothPatches(mesh))); }
+
+  void reshape(uint32_t index) {
+    std::vector<uint32_t> patches;
+    for (const TracedTriangle& triangle : meshes[index].triangles) patches.push_back(triangle.patch);
+    TracedMesh now = traced(*meshes[index].mesh, patches);
+    for (std::size_t i = 0; i < instances.size(); ++i)
+      if (objects[i].mesh == index) rtcSetGeometryInstancedScene(instances[i], now.scene.get());
+    meshes[index] = std::move(now);
   }
 
   RTCScene root() const { return top ? top.get() : meshes[0].scene.get(); }
@@ -244,6 +255,10 @@ RayScene::RayScene(const Scene& scene) : impl(std::make_unique<Impl>()) {
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
+
+void RayScene::reshape(uint32_t mesh) {
+  impl->reshape(mesh);
+}
 
 void RayScene::place(const Scene& scene) {
   impl->objects.clear();

@@ -30,7 +30,7 @@ struct Hit {
   vec3 geometricNormal{0};  // unit, outward by winding
 };
 
-// Immutable but for placements; safe to trace from many threads.
+// Immutable but for placements and shapes; safe to trace from many threads.
 class RayScene {
  public:
   // One mesh in its own space, as object 0. The mesh must outlive this.
@@ -44,6 +44,10 @@ class RayScene {
   // Moves the objects to where `scene`, with the same meshes, has them now; rebuilds only what lies above the
   // meshes.
   void place(const Scene& scene);
+
+  // A mesh of the scene, whose triangles join the same vertices as before, has other places and normals now.
+  // To be followed by `place`.
+  void reshape(uint32_t mesh);
 
   bool intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;

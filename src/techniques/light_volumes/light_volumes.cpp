@@ -129,6 +129,7 @@ void LightVolumes::update(GpuScene&) {
     portions.push_back(refinedBeams(scene, source, queries, boxes, settings));
     directions.push_back(meanDirection(portions.back()));
   }
+  if (settings.contributionError > 0) leaveOutWeakest(portions, double(settings.contributionError));
   tree = buildBeamTree(portions);
   beams.write(device, tree.beams);
   bounds.write(device, tree.bounds);

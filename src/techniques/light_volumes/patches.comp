@@ -89,10 +89,31 @@ uint thread() { return gl_SubgroupInvocationID; }
 
 ivec2 placeInTile(uint pixel) { return ivec2(pixel % kTileSize, pixel / kTileSize); }
 
-// Of the thread's own pixels, one bit each: those with a receiver.
-uint storeSquares(ivec2 tile) {
+// Whether any beam may light what a tile shows. Its pixels' squares reach half as far to one side as its neighbours lie to the other.
+bool isWithinBeams(ivec2 tile) {
+  vec4 low = vec4(1e30), high = vec4(-1e30);
+  const uint width = kTileSize + 2;
+  for (uint pixel = thread(); pixel < width * width; pixel += gl_SubgroupSize) {
+    const vec4 point = imageLoad(receiverPosition, tile + ivec2(pixel % width, pixel / width) - 1);
+    if (point.w == 0) continue;
+    low = min(low, point);
+    high = max(high, point);
+  }
+  low = leastInSubgroup(low);
+  high = -leastInSubgroup(-high);
+  const vec3 margin = 0.5 * (high.xyz - low.xyz) + 1e-3;
+  bool meets = false;
+  for (uint child = thread(); child < kChildren; child += gl_SubgroupSize) {
+    const BeamBounds bounds = boundsAt(constants.root + child);
+    meets = meets || (bounds.nearest <= bounds.farthest && boundsMeetBox(bounds, low.xyz - margin, high.xyz + margin));
+  }
+  return low.x <= high.x && subgroupBallot(meets) != uvec4(0);
+}
+
+// Of the first so many pixels of a tile. Of the thread's own, one bit each: those with a receiver.
+uint storeSquares(ivec2 tile, uint pixels) {
   uint there = 0, bit = 1;
-  for (uint pixel = thread(); pixel < kTilePixels; pixel += gl_SubgroupSize, bit <<= 1) {
+  for (uint pixel = thread(); pixel < pixels; pixel += gl_SubgroupSize, bit <<= 1) {
     const ivec2 place = tile + placeInTile(pixel);
     if (any(greaterThanEqual(place, constants.corner + constants.size))) continue;
     const ReceiverSquare square = squareAt(place);
@@ -276,7 +297,7 @@ void listBeamsOf(Patch shown, ivec2 tile, uint id, inout uint tested, inout uint
 
 void listBeamsOfTile(uvec2 tile, inout uint tested, inout uint met) {
   const ivec2 corner = constants.corner + ivec2(tile * kTileSize);
-  uint waiting = storeSquares(corner);
+  uint waiting = storeSquares(corner, isWithinBeams(corner) ? kTilePixels : 0);
   const uint pixelsOfThread = (kTilePixels + gl_SubgroupSize - 1) / gl_SubgroupSize;
   // Not those of the tiles about it, whose pixels a square may reach.
   uint id = 1 + kMostPatches * ((tile.x & 1) + 2 * (tile.y & 1));
