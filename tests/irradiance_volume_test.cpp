@@ -7,42 +7,13 @@
 #include <numeric>
 
 #include "closed_forms.h"
-#include "core/atomic_file.h"
-#include "core/error.h"
 #include "irradiance_volume/grid.h"
 #include "irradiance_volume/harmonics.h"
-#include "irradiance_volume/volume_file.h"
+#include "irradiance_volumes.h"
 #include "scene/shapes.h"
-#include "temporary_folder.h"
 
 namespace nephroid {
 namespace {
-
-Material glass() {
-  Material material;
-  material.type = MaterialType::dielectric;
-  return material;
-}
-
-Material silver() {
-  Material material;
-  material.type = MaterialType::mirror;
-  material.color = vec3(0.9f, 0.8f, 0.6f);
-  return material;
-}
-
-VolumeSettings someSettings() {
-  VolumeSettings settings;
-  settings.representation = kRepresentationGrid;
-  settings.kilobytes = 90;
-  settings.lightLevel = 1;
-  settings.photons = 30;
-  return settings;
-}
-
-Symmetry symmetryOf(const Mesh& mesh) {
-  return findSymmetry(RayScene(mesh), boundingSphere(mesh));
-}
 
 constexpr float kDisc = 0.5f;  // m, radius of the discs that flux is counted through
 
@@ -72,82 +43,6 @@ double photonsThrough(const CasterTracer& tracer, vec3 light, vec3 centre, vec3 
     if (length(origin + along * direction - centre) < kDisc) flux += double(path.flux.y * radius * radius);
   }
   return flux;
-}
-
-TEST(LightSphere, SpreadsDirectionsAndFindsTheThreeAround) {
-  for (const uint32_t level : {0u, 1u, 3u}) {
-    const LightSphere sphere(level);
-    EXPECT_EQ(sphere.directions().size(), 10u * (1u << (2 * level)) + 2);
-    const float edge = 1.3f / float(1u << level);  // radians, above the longest
-    for (int i = 0; i < 200; ++i) {
-      const float z = -1 + (float(i) + 0.5f) / 100, azimuth = 2.4f * float(i);
-      const float planar = std::sqrt(1 - z * z);
-      const vec3 direction(planar * std::cos(azimuth), planar * std::sin(azimuth), z);
-      const DirectionTriangle triangle = sphere.around(direction);
-      vec3 blended(0);
-      float sum = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const vec3 vertex = sphere.directions()[triangle.vertex[k]];
-        EXPECT_GT(dot(vertex, direction), std::cos(edge));
-        blended += triangle.weight[k] * vertex;
-        sum += triangle.weight[k];
-      }
-      EXPECT_NEAR(sum, 1, 1e-5f);
-      EXPECT_NEAR(dot(normalize(blended), direction), 1, 1e-5f);
-    }
-  }
-}
-
-TEST(Symmetry, IsFoundInTheMesh) {
-  EXPECT_TRUE(symmetryOf(makeSphere(0.5f, {.vertices = 2000})).isBall);
-  const Symmetry ring = symmetryOf(makeRing(0.5f, 0.3f, 0.05f, {.vertices = 4000}));
-  EXPECT_FALSE(ring.isBall);
-  EXPECT_EQ(ring.axis, 1u);
-  EXPECT_TRUE(ring.mirrors[1]);
-  const Symmetry box = symmetryOf(makeBox(vec3(1, 1, 1)));
-  EXPECT_EQ(box.axis, 3u);
-  EXPECT_TRUE(box.mirrors[0] && box.mirrors[1] && box.mirrors[2]);
-  const Symmetry prism = symmetryOf(makePrism(0.5f, 1.2f));
-  EXPECT_EQ(prism.axis, 3u);
-  EXPECT_TRUE(prism.mirrors[2]);
-  EXPECT_FALSE(prism.mirrors[0] && prism.mirrors[1]);
-  const Symmetry teapot = symmetryOf(makeTeapot(1));
-  EXPECT_EQ(teapot.axis, 3u);
-  EXPECT_FALSE(teapot.mirrors[0] && teapot.mirrors[2]);
-}
-
-TEST(LightSamples, LeaveOutWhatIsTheSame) {
-  Symmetry none, ball, ring, box;
-  ball.isBall = true;
-  ring.axis = 1;
-  ring.mirrors[1] = true;
-  std::fill_n(box.mirrors, 3, true);
-  EXPECT_EQ(LightSamples(none, 2).directions().size(), 162u);
-  EXPECT_EQ(LightSamples(ball, 2).directions().size(), 1u);
-  EXPECT_EQ(LightSamples(ring, 2).directions().size(), 7u);  // 15.9 degrees apart over 90
-  EXPECT_EQ(LightSamples(box, 2).directions().size(), 27u);  // 8 * 27 less those on the planes
-}
-
-// The map to a sample takes the light's own direction near the sample's, and onto it where it is turned.
-TEST(LightSamples, AreFoundByMapsOntoThem) {
-  Symmetry none, ring, box;
-  ring.axis = 2;
-  std::fill_n(box.mirrors, 3, true);
-  for (const Symmetry& symmetry : {none, ring, box}) {
-    const LightSamples samples(symmetry, 2);
-    for (const vec3 light :
-         {vec3(0, -1, 0), vec3(0.3f, -0.8f, 0.2f), vec3(-0.7f, 0.1f, -0.5f), vec3(0, 0, -1)})
-      for (const auto interpolation :
-           {LightInterpolation::nearest, LightInterpolation::barycentric, LightInterpolation::rotated}) {
-        float sum = 0;
-        for (const SampleShare& share : samples.around(normalize(light), interpolation)) {
-          const float cosine = dot(share.toSample * normalize(light), samples.directions()[share.sample]);
-          EXPECT_GT(cosine, interpolation == LightInterpolation::rotated ? 0.99999f : std::cos(0.3f));
-          sum += share.weight;
-        }
-        EXPECT_NEAR(sum, 1, 1e-5f);
-      }
-  }
 }
 
 class IrradianceVolumeAs : public testing::TestWithParam<uint32_t> {
@@ -377,108 +272,6 @@ TEST(IrradianceVolume, DoesNotDependOnTheNumberOfThreads) {
   const std::vector<uint32_t> many = wordsOf();
   const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(many, wordsOf());
-}
-
-class VolumeFile : public testing::Test {
- protected:
-  VolumeFile() { bake(file, {}); }
-
-  void bake(const std::filesystem::path& to, SampleRange range) {
-    IrradianceVolume volume(mesh, glass(), settings(), {});
-    IrradianceVolume* const one = &volume;
-    Progress progress;
-    writeVolumes({&one, 1}, range, to, progress);
-  }
-  static VolumeSettings settings() {
-    VolumeSettings few = someSettings();
-    few.lightLevel = 0;
-    few.kilobytes = 8;
-    few.photons = 2;
-    return few;
-  }
-  std::string rejectionOf(const VolumeKey& expected) const {
-    try {
-      openVolumes(file, {&expected, 1});
-      return "";
-    } catch (const InputError& error) {
-      return error.what();
-    }
-  }
-  std::string rejectionOf(const std::string& bytes) const {
-    writeFileAtomically(file, bytes);
-    return rejectionOf(key);
-  }
-
-  const Mesh mesh = makeBox(vec3(1, 0.7f, 0.4f));
-  const VolumeKey key = volumeKey(mesh, glass(), settings());
-  const TemporaryFolder folder;
-  const std::filesystem::path file = folder / "box.volume";
-};
-
-TEST_F(VolumeFile, ComesBackBitForBit) {
-  IrradianceVolume made(mesh, glass(), settings(), {});
-  IrradianceVolume read(mesh, openVolumes(file, {&key, 1})[0]);
-  ASSERT_EQ(read.lightSamples().directions().size(), made.lightSamples().directions().size());
-  for (uint32_t i = 0; i < made.lightSamples().directions().size(); ++i) {
-    EXPECT_EQ(read.sample(i).layout, made.sample(i).layout);
-    EXPECT_TRUE(std::ranges::equal(read.sample(i).words, made.sample(i).words));
-  }
-}
-
-TEST_F(VolumeFile, PartsMergeToTheSameBytes) {
-  const auto count = uint32_t(LightSamples(symmetryOf(mesh), 0).directions().size());
-  ASSERT_GE(count, 3u);
-  const std::filesystem::path first = folder / "first", second = folder / "second",
-                              merged = folder / "merged";
-  bake(first, {0, 1});
-  bake(second, {1, count});
-  const std::filesystem::path parts[] = {second, first};
-  mergeVolumes(parts, merged);
-  EXPECT_EQ(readAll(merged), readAll(file));
-  EXPECT_THROW(mergeVolumes(std::span(parts).first(1), merged), InputError);
-  EXPECT_THROW(mergeVolumes(std::span(parts).last(1), merged), InputError);
-  IrradianceVolume part(mesh, openVolumes(first, {&key, 1})[0]);
-  EXPECT_NO_THROW(part.sample(0));
-  EXPECT_THROW(part.sample(1), InputError);
-}
-
-TEST_F(VolumeFile, IsRejectedWhereItDoesNotFit) {
-  EXPECT_NE(rejectionOf(volumeKey(makeBox(vec3(1)), glass(), settings())).find("another mesh"),
-            std::string::npos);
-  EXPECT_NE(rejectionOf(volumeKey(mesh, silver(), settings())).find("another material"), std::string::npos);
-  VolumeSettings finer = settings();
-  finer.kilobytes = 9;
-  EXPECT_NE(rejectionOf(volumeKey(mesh, glass(), finer)).find("give --volume-kilobytes 8"),
-            std::string::npos);
-  finer = settings();
-  finer.paths = uint32_t(Paths::all);
-  EXPECT_NE(rejectionOf(volumeKey(mesh, glass(), finer)).find("--paths"), std::string::npos);
-}
-
-TEST_F(VolumeFile, IsRejectedWhereItIsDamaged) {
-  const std::string whole = readAll(file);
-  EXPECT_NE(rejectionOf(whole.substr(0, 50)).find("truncated"), std::string::npos);
-  EXPECT_NE(rejectionOf(whole.substr(0, whole.size() - 1)).find("truncated"), std::string::npos);
-  EXPECT_NE(rejectionOf(whole + "x").find("longer"), std::string::npos);
-  EXPECT_NE(rejectionOf(std::string(2000, 'x')).find("is not one"), std::string::npos);
-  for (const std::size_t place : {std::size_t{40}, std::size_t{100}, whole.size() / 2, whole.size() - 3}) {
-    std::string damaged = whole;
-    damaged[place] = char(damaged[place] ^ 4);
-    EXPECT_NE(rejectionOf(damaged).find("damaged"), std::string::npos) << place;
-  }
-  std::string other = whole;
-  other[8] = char(77);
-  EXPECT_NE(rejectionOf(other).find("version"), std::string::npos);
-}
-
-TEST_F(VolumeFile, TheCacheKeepsWhatIsMade) {
-  const std::filesystem::path cache = folder / "cache";
-  IrradianceVolume made(mesh, glass(), settings(), cache);
-  EXPECT_FALSE(cachedSample(cache, key, made.symmetry(), 1));
-  const SampleView sample = made.sample(1);
-  const std::optional<SampleView> kept = cachedSample(cache, key, made.symmetry(), 1);
-  ASSERT_TRUE(kept);
-  EXPECT_TRUE(std::ranges::equal(kept->words, sample.words));
 }
 
 }  // namespace
