@@ -123,7 +123,8 @@ TEST_F(IrradianceVolumeGpuTest, ShowsWhatTheProcessorLooksUp) {
           sum += double(length(expected[i]));
         }
         EXPECT_GT(sum, 1000);
-        EXPECT_LT(error, 1e-3 * sum) << nameOf(representation) << ' ' << nameOf(interpolation);
+        // Devices may filter images with weights of 8 bits.
+        EXPECT_LT(error, sum / 256) << nameOf(representation) << ' ' << nameOf(interpolation);
       }
   }
 }

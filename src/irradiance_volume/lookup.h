@@ -2,7 +2,7 @@
 //
 // A shader defines `struct VolumeView` with `uvec3 size` and `uint volumeWord(VolumeView volume, uint
 // index)`, `struct FlowView` with `vec3 origin`, `vec3 scale` and `uint side`, and `vec3 flowMove(FlowView
-// flow, uint index)`, and includes this.
+// flow, uvec3 node)`, includes this, and defines `gridLight` by images, which it filters faster.
 #ifndef NEPHROID_IRRADIANCE_VOLUME_LOOKUP_H
 #define NEPHROID_IRRADIANCE_VOLUME_LOOKUP_H
 
@@ -25,8 +25,8 @@ struct FlowView {
   uint side;
   const vec3* moves;
 };
-inline vec3 flowMove(const FlowView& flow, uint index) {
-  return flow.moves[index];
+inline vec3 flowMove(const FlowView& flow, uvec3 node) {
+  return flow.moves[(node.z * flow.side + node.y) * flow.side + node.x];
 }
 using glm::uintBitsToFloat;
 using glm::unpackHalf2x16;
@@ -105,11 +105,15 @@ SHARED_FUNCTION bool isBetween(vec3 place, vec3 end) {
 }
 
 // `place` in cells from the grid's corner; nothing beyond the grid. Its cells come after `first` others.
-SHARED_FUNCTION VolumeLight gridLight(VolumeView volume, uint first, vec3 place) {
-  vec3 end = vec3(volume.size);
+#ifdef __cplusplus
+inline VolumeLight gridLight(VolumeView volume, uint first, vec3 place) {
+  const vec3 end(volume.size);
   return latticeLight(volume, first, volume.size, clamp(place - 0.5f, vec3(0.0f), end - 1.0f),
                       isBetween(place, end) ? 8u : 0u);
 }
+#else
+VolumeLight gridLight(VolumeView volume, uint first, vec3 place);
+#endif
 
 // `place` as in the finest grid. A volume's size is in bricks; it begins with a word for each of them: where
 // its values begin and, in the two lowest bits, how often it is halved along each side.
@@ -165,8 +169,7 @@ SHARED_FUNCTION FlowedPlace flowedPlace(FlowView flow, vec3 place) {
   uint corners = flow.side > 0u ? 8u : 0u;
   for (uint i = 0u; i < corners; ++i) {
     uvec3 bit = uvec3(i & 1u, (i >> 1u) & 1u, i >> 2u);
-    uvec3 node = low + bit;
-    vec3 value = flowMove(flow, (node.z * flow.side + node.y) * flow.side + node.x);
+    vec3 value = flowMove(flow, low + bit);
     vec3 weights = mix(1.0f - part, part, vec3(bit));
     vec3 sides = 2.0f * vec3(bit) - 1.0f;
     move += (weights.x * weights.y * weights.z) * value;

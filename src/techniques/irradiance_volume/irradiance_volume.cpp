@@ -1,6 +1,7 @@
 #include "techniques/irradiance_volume/irradiance_volume.h"
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <map>
 #include <set>
@@ -13,6 +14,7 @@
 #include "scene/light_intensity.h"
 #include "shaders/volume_frag.h"
 #include "shaders/whole_picture_vert.h"
+#include "techniques/irradiance_volume/cell_images.h"
 #include "techniques/irradiance_volume/shader_data.h"
 
 namespace nephroid {
@@ -37,27 +39,44 @@ VolumeSettings volumeSettings(const TechniqueSettings& settings) {
   return volume;
 }
 
+// Light of a volume on the device: as `representation` of lookup.h has it, in images or in words.
+struct HeldLight {
+  CellImages cells;   // of all but bricks
+  gpu::Buffer words;  // of bricks; of shells, what their cells come after
+};
+
+// How light is displaced: a row for each y and z of the lattice.
+struct HeldFlow {
+  gpu::Image moves;  // rgba32f
+  gpu::Buffer staged;
+};
+
 class IrradianceVolumes final : public Technique {
  public:
   explicit IrradianceVolumes(const TechniqueContext& context);
 
   void update(GpuScene& gpuScene) override;
-  void record(gpu::CommandList&, GpuScene&) override {}
+  void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;
 
  private:
+  struct Share {
+    VolumeConstants constants{};
+    const HeldLight* light = nullptr;
+    const HeldFlow* flow = nullptr;  // none where light stays
+  };
+
   // For light of `lux` on the caster, that travels along the unit vector `direction`.
   void addShares(const Object& object, IrradianceVolume& volume, vec3 direction, vec3 lux);
   // The same for all points of one light at once.
   void addResolved(const Object& object, IrradianceVolume& volume, std::span<const Emitter> emitters,
                    const ShapedLight& light);
   void addShare(const Object& object, const IrradianceVolume& volume, const SampleLayout& layout,
-                const mat3& toFrame, vec3 lux, VkDeviceAddress words, const LightFlow& flow = {});
-  // Filled, and kept until the next frame is made.
-  template <class T>
-  const gpu::Buffer& addBuffer(const char* name, const std::vector<T>& values);
-  VkDeviceAddress onDevice(IrradianceVolume& volume, uint32_t sample);
+                const mat3& toFrame, vec3 lux, const HeldLight& held, const LightFlow& flow = {});
+  const HeldLight& onDevice(IrradianceVolume& volume, uint32_t sample);
+  void stage(HeldLight& held, const SampleLayout& layout, std::span<const uint32_t> words) const;
+  const HeldFlow& staged(const LightFlow& flow);
 
   gpu::Device& device;
   const TechniqueSettings settings;
@@ -65,10 +84,15 @@ class IrradianceVolumes final : public Technique {
   SceneTransport& transport;
   SceneVolumes volumes;
   gpu::Program program;
-  std::map<std::pair<const IrradianceVolume*, uint32_t>, gpu::Buffer> uploaded;
-  // Of the frame being made.
-  std::vector<VolumeConstants> shares;
-  std::deque<gpu::Buffer> ofFrame;
+  gpu::Sampler cellSampler, moveSampler;
+  CellImages noCells;  // bound where a share has none
+  gpu::Image noMoves;
+  std::map<std::pair<const IrradianceVolume*, uint32_t>, HeldLight> uploaded;
+  // Of the frame being made; those after the ones that are used are left from frames before.
+  std::vector<Share> shares;
+  std::deque<HeldFlow> flows;
+  std::deque<HeldLight> resolved;
+  std::size_t usedFlows = 0, usedResolved = 0;
 };
 
 IrradianceVolumes::IrradianceVolumes(const TechniqueContext& context)
@@ -80,21 +104,53 @@ IrradianceVolumes::IrradianceVolumes(const TechniqueContext& context)
       program(gpu::createRasterProgram(device, "irradiance volume", shaders::whole_picture_vert,
                                        shaders::volume_frag,
                                        {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
-                                       {{0, uint32_t(settings.representation)}})) {}
+                                       {{0, uint32_t(settings.representation)}})),
+      cellSampler(gpu::createSampler(device)),
+      moveSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})),
+      noMoves(gpu::createImage(device, "no irradiance flow", {})) {
+  stageCells(device, noCells, uvec3(1), 0, std::array<uint32_t, kWordsOfCell>{});
+}
+
+void IrradianceVolumes::stage(HeldLight& held, const SampleLayout& layout,
+                              std::span<const uint32_t> words) const {
+  const bool isShells = settings.representation == Representation::shells;
+  if (settings.representation != Representation::multiResolution)
+    stageCells(device, held.cells, layout.size, isShells ? kShellWords / kWordsOfCell : 0, words);
+  if (isShells) words = words.first(kShellWords);
+  if (isShells || settings.representation == Representation::multiResolution)
+    held.words = gpu::upload(device, "irradiance volume", std::vector<uint32_t>(words.begin(), words.end()));
+}
 
 // Light samples go to the device when they are needed first, and stay there.
-VkDeviceAddress IrradianceVolumes::onDevice(IrradianceVolume& volume, uint32_t sample) {
-  gpu::Buffer& buffer = uploaded[{&volume, sample}];
-  if (!buffer) {
-    const std::span<const uint32_t> words = volume.sample(sample).words;
-    buffer = gpu::upload(device, "irradiance volume", std::vector<uint32_t>(words.begin(), words.end()));
-  }
-  return buffer.address();
+const HeldLight& IrradianceVolumes::onDevice(IrradianceVolume& volume, uint32_t sample) {
+  const auto [found, isNew] = uploaded.try_emplace({&volume, sample});
+  HeldLight& held = found->second;
+  if (!isNew) return held;
+  const SampleView& view = volume.sample(sample);
+  if (view.layout.words > 0) stage(held, view.layout, view.words);
+  if (held.cells.vectors)
+    device.submitAndWait([&](gpu::CommandList& commands) { copyCells(commands, held.cells); });
+  held.cells.staged = {};
+  return held;
+}
+
+const HeldFlow& IrradianceVolumes::staged(const LightFlow& flow) {
+  if (usedFlows == flows.size()) flows.emplace_back();
+  HeldFlow& held = flows[usedFlows++];
+  if (!held.moves || held.moves.width() != flow.side)
+    held.moves =
+        gpu::createImage(device, "irradiance flow", {.width = flow.side, .height = flow.side * flow.side});
+  std::vector<vec4> moves;
+  for (const vec3& move : flow.moves) moves.emplace_back(move, 0);
+  gpu::ensureBuffer(device, held.staged, "irradiance flow", moves.size() * sizeof(vec4),
+                    gpu::MemoryKind::upload);
+  held.staged.write(moves);
+  return held;
 }
 
 void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& volume,
                                  const SampleLayout& layout, const mat3& toFrame, vec3 lux,
-                                 VkDeviceAddress words, const LightFlow& flow) {
+                                 const HeldLight& held, const LightFlow& flow) {
   if (layout.words == 0 || lux == vec3(0)) return;
   const Placement& placement = object.placement;
   const vec3 centre = placement.point(volume.sphere().centre);
@@ -103,20 +159,21 @@ void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& v
   const mat3 turn = toFrame * glm::transpose(glm::mat3_cast(placement.rotation));
   const mat3 linear = placesPerMetre * turn;
   const vec3 offset = -(linear * centre) - layout.placesPerUnit * layout.corner;
-  VolumeConstants constants{};
+  Share& share = shares.emplace_back();
+  VolumeConstants& constants = share.constants;
   for (int row = 0; row < 3; ++row)
     constants.toPlaces[row] = vec4(linear[0][row], linear[1][row], linear[2][row], offset[row]);
   constants.centre = centre;
   constants.inverseRadius = 1 / (placement.scale * volume.regionRadius());
   constants.lux = lux;
-  constants.size = layout.size;
-  constants.words = words;
+  constants.sizeAcross = layout.size.x | layout.size.y << 16;
+  constants.sizeAndFlowSide = layout.size.z | flow.side << 16;
+  constants.words = held.words ? held.words.address() : 0;
   constants.source = glm::transpose(turn) * layout.source;
-  constants.flowSide = flow.side;
-  std::vector<vec3> values{flow.origin, flow.scale};
-  values.insert(values.end(), flow.moves.begin(), flow.moves.end());
-  constants.flow = addBuffer("irradiance flow", values).address();
-  shares.push_back(constants);
+  constants.flowOrigin = flow.origin;
+  constants.flowScale = flow.scale;
+  share.light = &held;
+  if (flow.side > 0) share.flow = &staged(flow);
 }
 
 void IrradianceVolumes::addShares(const Object& object, IrradianceVolume& volume, vec3 direction, vec3 lux) {
@@ -144,22 +201,17 @@ void IrradianceVolumes::addResolved(const Object& object, IrradianceVolume& volu
   }
   if (sum <= 0) return;
   for (float& coefficient : coefficients) coefficient /= sum;
-  const std::vector<uint32_t> words = volume.resolve(coefficients);
-  const gpu::Buffer& buffer = addBuffer("resolved irradiance volume", words);
-  addShare(object, volume, volume.sample(0).layout, mat3(1), lux, buffer.address());
-}
-
-template <class T>
-const gpu::Buffer& IrradianceVolumes::addBuffer(const char* name, const std::vector<T>& values) {
-  gpu::Buffer buffer = gpu::createBuffer(device, name, values.size() * sizeof(T), gpu::MemoryKind::upload);
-  buffer.write(values);
-  return ofFrame.emplace_back(std::move(buffer));
+  if (usedResolved == resolved.size()) resolved.emplace_back();
+  HeldLight& held = resolved[usedResolved++];
+  const SampleLayout& layout = volume.sample(0).layout;
+  stage(held, layout, volume.resolve(coefficients));
+  addShare(object, volume, layout, mat3(1), lux, held);
 }
 
 void IrradianceVolumes::update(GpuScene&) {
   const Scene& now = transport.scene();
   shares.clear();
-  ofFrame.clear();
+  usedFlows = usedResolved = 0;
   const std::vector<ShapedLight> lights = shapedLights(now);
   for (uint32_t l = 0; l < lights.size(); ++l) {
     const std::vector<Emitter> emitters = emittersOf(now.lights[l], l);
@@ -177,16 +229,29 @@ void IrradianceVolumes::update(GpuScene&) {
     }
   }
   uint64_t bytes = 0;
-  for (const auto& [sample, buffer] : uploaded) bytes += buffer.size();
-  for (const gpu::Buffer& buffer : ofFrame) bytes += buffer.size();
+  const auto add = [&](const HeldLight& held) { bytes += held.words.size() + cellBytes(held.cells); };
+  for (const auto& [sample, held] : uploaded) add(held);
+  for (const HeldLight& held : resolved) add(held);
   stats.counts = {{"lookups", shares.size()}, {"light_samples", uploaded.size()}, {"volume_bytes", bytes}};
+}
+
+void IrradianceVolumes::record(gpu::CommandList& commands, GpuScene&) {
+  for (std::size_t i = 0; i < usedFlows; ++i) commands.copy(flows[i].staged, 0, flows[i].moves, 0);
+  for (std::size_t i = 0; i < usedResolved; ++i) copyCells(commands, resolved[i].cells);
 }
 
 void IrradianceVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& points,
                               const gpu::Image& causticsLux) {
   drawCaustics(commands, points, causticsLux, [&] {
-    for (const VolumeConstants& share : shares)
-      commands.draw(program, 3, 1, share, {*points.position, *points.normal});
+    for (const Share& share : shares) {
+      const CellImages& cells = share.light->cells.vectors ? share.light->cells : noCells;
+      commands.draw(program, 3, 1, share.constants,
+                    {*points.position,
+                     *points.normal,
+                     {cells.vectors, cellSampler},
+                     {cells.tints, cellSampler},
+                     {share.flow ? share.flow->moves : noMoves, moveSampler}});
+    }
   });
 }
 

@@ -10,31 +10,28 @@
 layout(buffer_reference, scalar) readonly buffer VolumeWords {
   uint word[];
 };
-// Of FlowView.
-layout(buffer_reference, scalar) readonly buffer FlowWords {
-  vec3 originScaleAndMoves[];
-};
 #endif
 
 SHARED_BEGIN
 
 // One light sample's share in the light of one emitter through one caster.
 struct VolumeConstants {
-  vec4 toPlaces[3];     // rows of the affine map from the world to places of the volume; without shear
-  vec3 centre;          // m, of the region
-  float inverseRadius;  // 1/m, of the region
-  vec3 lux;             // of the light that falls on the caster, times the share
-  uvec3 size;           // of the volume
-  BUFFER_ADDRESS(VolumeWords) words;
-  vec3 source;    // as SampleLayout has it, turned to the world
-  uint flowSide;  // FlowView::side
-  BUFFER_ADDRESS(FlowWords) flow;
+  vec4 toPlaces[3];      // rows of the affine map from the world to places of the volume; without shear
+  vec3 centre;           // m, of the region
+  float inverseRadius;   // 1/m, of the region
+  vec3 lux;              // of the light that falls on the caster, times the share
+  uint sizeAcross;       // of the volume: x in the lower 16 bits, y above
+  uint sizeAndFlowSide;  // z in the lower 16 bits, FlowView::side above
+  vec3 source;           // as SampleLayout has it, turned to the world
+  BUFFER_ADDRESS(VolumeWords) words;  // of bricks; of shells, what the cells come after
+  vec3 flowOrigin;                    // FlowView::origin
+  vec3 flowScale;
 };
 
 SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(nephroid::VolumeConstants) == 120);
+static_assert(sizeof(nephroid::VolumeConstants) == 128);
 #endif
 
 #endif

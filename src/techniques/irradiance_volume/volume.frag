@@ -8,20 +8,41 @@ struct VolumeView {
   VolumeWords words;
 };
 uint volumeWord(VolumeView volume, uint index) { return volume.words.word[index]; }
+
+layout(set = 0, binding = 4) uniform sampler2D flowMoves;  // a row for each y and z
 struct FlowView {
   vec3 origin;
   vec3 scale;
   uint side;
-  FlowWords words;
 };
-vec3 flowMove(FlowView flow, uint index) { return flow.words.originScaleAndMoves[index + 2]; }
+vec3 flowMove(FlowView flow, uvec3 node) {
+  return texelFetch(flowMoves, ivec2(node.x, node.z * flow.side + node.y), 0).xyz;
+}
+
 #include "irradiance_volume/lookup.h"
 
 layout(constant_id = 0) const uint kRepresentation = 0;
 layout(push_constant, scalar) uniform Constants { VolumeConstants constants; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
+layout(set = 0, binding = 2) uniform sampler2DArray cellVectors;  // as CellImages
+layout(set = 0, binding = 3) uniform sampler2DArray cellTints;
 layout(location = 0) out vec4 causticsLux;  // added to that of other shares
+
+// The images hold the cells that come after `first` others.
+VolumeLight gridLight(VolumeView volume, uint first, vec3 place) {
+  VolumeLight light = noLight();
+  const vec3 end = vec3(volume.size);
+  if (!isBetween(place, end)) return light;
+  const float layer = clamp(place.z - 0.5, 0, end.z - 1);
+  const vec3 low = vec3(place.xy / end.xy, floor(layer)), high = vec3(low.xy, low.z + 1);
+  const float part = layer - low.z;
+  const vec4 vector = mix(textureLod(cellVectors, low, 0), textureLod(cellVectors, high, 0), part);
+  const vec2 tint = mix(textureLod(cellTints, low, 0).rg, textureLod(cellTints, high, 0).rg, part);
+  light.vector = vector.xyz;
+  light.color = vec3(tint.x, vector.w - tint.x - tint.y, tint.y);
+  return light;
+}
 
 vec3 mapped(vec4 p) {
   return vec3(dot(constants.toPlaces[0], p), dot(constants.toPlaces[1], p), dot(constants.toPlaces[2], p));
@@ -36,9 +57,12 @@ void main() {
       placeInRegion((point.xyz - constants.centre) * constants.inverseRadius, constants.source);
   if (inRegion.w == 0) return;
   const vec3 place = mapped(vec4(constants.centre + inRegion.xyz / constants.inverseRadius, 1));
-  FlowView flow = FlowView(constants.flow.originScaleAndMoves[0], constants.flow.originScaleAndMoves[1],
-                           constants.flowSide, constants.flow);
-  VolumeView volume = VolumeView(constants.size, constants.words);
+  const FlowView flow =
+      FlowView(constants.flowOrigin, constants.flowScale, constants.sizeAndFlowSide >> 16u);
+  const uint lower = 0xffffu;
+  const uvec3 size =
+      uvec3(constants.sizeAcross & lower, constants.sizeAcross >> 16u, constants.sizeAndFlowSide & lower);
+  VolumeView volume = VolumeView(size, constants.words);
   const VolumeLight light = flowedLight(volume, kRepresentation, flow, place);
   if (light.vector == vec3(0)) return;
   const vec3 normal = normalize(mapped(vec4(imageLoad(receiverNormal, pixel).xyz, 0)));
