@@ -124,5 +124,23 @@ TEST_F(TechniquePicturesGpuTest, ALineIsItsPointsOfEqualShare) {
   }
 }
 
+// A lamp within a ball of glass shines all ways, which no planes across one axis hold.
+TEST_F(TechniquePicturesGpuTest, LightGoesAllWays) {
+  Scene scene = ballOverFloor(0.9f, {0.1f, 1, 0.05f});
+  const Sensor floor{"floor", {-1.5f, 0, -1.5f}, {3, 0, 0}, {0, 0, 3}, {32, 32}};
+  const auto flux = [&](const char* technique) {
+    TechniqueSettings settings;
+    settings.technique = technique;
+    settings.source = Source::traced;
+    Progress progress;
+    Stats stats;
+    double sum = 0;
+    for (const vec3& texel : TechniqueMeter(device(), scene, floor, settings, progress, stats).read())
+      sum += double(texel.y);
+    return sum;
+  };
+  EXPECT_NEAR(flux("illumination-textures") / flux("light-volumes"), 1, 0.01);
+}
+
 }  // namespace
 }  // namespace nephroid

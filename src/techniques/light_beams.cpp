@@ -92,11 +92,15 @@ std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source
   std::vector<Beam> beams = beamsOf(scene, source, queries, refined);
   // The grid of water is as fine as its waves.
   if (isWater || !source.refines() || settings.refineDepth == 0) return beams;
-  const PlaneSet along = planAlongLight(beams, boxes, 2, settings.textureSize);
-  if (along.planes == 0) return beams;
+  for (const std::vector<Beam>& portion : portionsByAxis(beams, boxes)) {
+    const PlaneSet along = planAlongLight(portion, boxes, 2, settings.textureSize);
+    if (along.planes == 0) continue;
+    refined.targets.push_back(planeGrid(along, 0, 0));
+    refined.targets.push_back(planeGrid(along, along.planes - 1, 0));
+  }
+  if (refined.targets.empty()) return beams;
   refined.refineDepth = settings.refineDepth;
   refined.refineTolerance = 0.5f;
-  refined.targets = {planeGrid(along, 0, 0), planeGrid(along, along.planes - 1, 0)};
   return beamsOf(scene, source, queries, refined);
 }
 

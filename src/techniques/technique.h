@@ -21,7 +21,8 @@ struct ReceiverPoints {
 void drawCaustics(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& causticsLux,
                   const std::function<void()>& draw);
 
-// One frame is update, record, then shade for each view. A moved camera changes only what shade does.
+// One frame is update, record, then shade for each view. The first two may be left out while all that they
+// depend on stands still.
 class Technique {
  public:
   Technique() = default;
@@ -42,6 +43,9 @@ class Technique {
   // Whether what `shade` adds is the mean over a point's square of the receiver, out to half its neighbours,
   // and not what its centre gets.
   virtual bool coversSquares() const { return false; }
+
+  // Whether `update` depends on where the camera stands.
+  virtual bool followsCamera() const { return false; }
 
   // After the device has done a frame's work. False where a list turned out too short, and is longer now:
   // all from `record` on is to be done again.

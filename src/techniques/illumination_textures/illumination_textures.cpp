@@ -14,7 +14,7 @@ PlaneSet plan(const Scene&, std::span<const Beam> beams, std::span<const Receive
 
 std::unique_ptr<Technique> makeIlluminationTextures(const TechniqueContext& context) {
   return std::make_unique<PlaneTechnique>(
-      context, PlaneTechniqueTraits{plan, true, "receivers from the light", "illumination textures"});
+      context, PlaneTechniqueTraits{plan, true, false, "receivers from the light", "illumination textures"});
 }
 
 }  // namespace nephroid

@@ -12,6 +12,8 @@ constexpr std::size_t kMostRays = 4096;     // beams looked at
 constexpr double kDepthTail = 0.001;        // part of the flux left before the first and past the last plane
 constexpr double kInnerWindowTail = 0.015;  // part of the flux left on each side of the inner window
 constexpr float kWindowMargin = 0.02f;      // of a window's side
+constexpr double kMostAside = 0.001;        // part of the flux that planes may miss
+constexpr float kRoomAside = 0.1f;          // of a cosine, as the mean of a portion is not its own middle
 constexpr float kFlatFraction = 1e-4f;      // of a box's longest side: one this thin is a surface
 
 struct Line {
@@ -123,7 +125,57 @@ vec3 meanDirection(std::span<const Beam> beams) {
   return glm::length(mean) > 1e-6 * flux ? vec3(glm::normalize(mean)) : vec3(0);
 }
 
+// Lines of beams that arrive, of as many as tell for all.
+std::vector<Line> arriving(std::span<const Beam> beams, std::span<const ReceiverBox> boxes) {
+  std::vector<Line> lines;
+  std::vector<Arrival> arrivals;
+  const std::size_t stride = beams.size() / kMostRays + 1;
+  for (std::size_t i = 0; i < beams.size(); i += stride) {
+    const Line middle = middleOf(beams[i]);
+    arrivals.clear();
+    addArrivals(middle, boxes, arrivals);
+    if (!arrivals.empty()) lines.push_back(middle);
+  }
+  return lines;
+}
+
+// Whether planes across `axis` hold all of these, but for a little.
+bool goAlong(vec3 axis, std::span<const Line> lines) {
+  double all = 0, aside = 0;
+  for (const Line& line : lines) {
+    all += double(line.flux);
+    if (dot(line.direction, axis) < kLeastApproach) aside += double(line.flux);
+  }
+  return aside <= kMostAside * all;
+}
+
+// Two for each axis of the world, one for either way along it.
+std::size_t nearestAxis(vec3 direction) {
+  const vec3 size = abs(direction);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  return std::size_t(2 * axis + (direction[axis] < 0 ? 1 : 0));
+}
+
 }  // namespace
+
+std::vector<std::vector<Beam>> portionsByAxis(std::vector<Beam> beams, std::span<const ReceiverBox> boxes) {
+  std::vector<std::vector<Beam>> portions(1);
+  const std::vector<Line> lines = arriving(beams, boxes);
+  if (goAlong(meanDirection(beams), lines)) {
+    portions[0] = std::move(beams);
+    return portions;
+  }
+  vec3 sum(0);
+  for (const Line& line : lines) sum += line.flux * line.direction;
+  const vec3 axis = sum == vec3(0) ? sum : normalize(sum);
+  portions.resize(7);
+  for (const Beam& beam : beams) {
+    const vec3 direction = middleOf(beam).direction;
+    const bool isAlong = dot(direction, axis) >= kLeastApproach + kRoomAside;
+    portions[isAlong ? 0 : 1 + nearestAxis(direction)].push_back(beam);
+  }
+  return portions;
+}
 
 std::vector<ReceiverBox> receiverBoxes(const Scene& scene) {
   std::vector<ReceiverBox> boxes;

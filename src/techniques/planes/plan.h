@@ -32,6 +32,10 @@ struct Arrival {
 std::vector<Arrival> findArrivals(std::span<const Beam> beams, std::span<const ReceiverBox> boxes,
                                   vec3 axis = vec3(0), float leastApproach = 0);
 
+// Portions of light that planes across an axis each can hold: all of it; or, where too much arrives aside of
+// its mean direction, what goes the way that most of it arrives, and the rest by axes of the world.
+std::vector<std::vector<Beam>> portionsByAxis(std::vector<Beam> beams, std::span<const ReceiverBox> boxes);
+
 // How planes stand, and how far along their axis the virtual camera begins to see.
 struct PlaneOrder {
   vec3 axis{0};  // unit

@@ -71,27 +71,29 @@ PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechn
                     shadeProgram(device, "caustics in color", 3, settings)},
       texelSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {}
 
-PlaneTechnique::LitPlanes PlaneTechnique::light(std::span<const BandQuery> queries,
-                                                std::span<const ReceiverBox> boxes) const {
-  const Scene& scene = transport.scene();
-  LitPlanes result;
-  result.beams = refinedBeams(scene, source, queries, boxes, settings);
-  result.planes = traits.plan(scene, result.beams, boxes, settings);
-  if (result.planes.planes == 0) return result;
-  result.channels = areOfOneColor(result.beams) ? 1 : 3;
-  return result;
+void PlaneTechnique::addLit(std::vector<Beam> portion, std::span<const ReceiverBox> boxes) {
+  LitPlanes own{std::move(portion), {}, 3};
+  own.planes = traits.plan(transport.scene(), own.beams, boxes, settings);
+  if (own.planes.planes == 0) return;
+  own.channels = areOfOneColor(own.beams) ? 1 : 3;
+  lit.push_back(std::move(own));
 }
 
 void PlaneTechnique::update(GpuScene&) {
-  const std::vector<ReceiverBox> boxes = receiverBoxes(transport.scene());
+  const Scene& scene = transport.scene();
+  const std::vector<ReceiverBox> boxes = receiverBoxes(scene);
   lit.clear();
-  std::size_t beamCount = 0;
   for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths, casters)) {
-    LitPlanes own = light(queries, boxes);
-    if (own.planes.planes == 0) continue;
-    beamCount += own.beams.size();
-    lit.push_back(std::move(own));
+    std::vector<Beam> all = refinedBeams(scene, source, queries, boxes, settings);
+    if (!traits.goesAlongAxis) {
+      addLit(std::move(all), boxes);
+      continue;
+    }
+    for (std::vector<Beam>& portion : portionsByAxis(std::move(all), boxes))
+      addLit(std::move(portion), boxes);
   }
+  std::size_t beamCount = 0;
+  for (const LitPlanes& own : lit) beamCount += own.beams.size();
   setCount(stats, "beams", beamCount);
   setCount(stats, "plane_sets", lit.size());
   upload();

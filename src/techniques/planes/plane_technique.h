@@ -21,6 +21,7 @@ struct PlaneTechniqueTraits {
   // The light goes along the planes' axis, give or take, so that the virtual camera sees the receivers that
   // it meets; or else any way, and what it meets may be hidden.
   bool goesAlongAxis;
+  bool followCamera;         // where the planes are depends on where it stands
   const char* viewPass;      // name of the pass that draws what the virtual camera sees
   const char* texturesPass;  // name of the pass that fills the textures
 };
@@ -33,9 +34,10 @@ class PlaneTechnique final : public Technique {
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;
+  bool followsCamera() const override { return traits.followCamera; }
 
  private:
-  // One portion of the light, and its planes.
+  // A portion of the light, and its planes.
   struct LitPlanes {
     std::vector<Beam> beams;
     PlaneSet planes{};
@@ -48,7 +50,7 @@ class PlaneTechnique final : public Technique {
     gpu::Image textures;  // units of flux, layers as textureIndex has them
   };
 
-  LitPlanes light(std::span<const BandQuery> queries, std::span<const ReceiverBox> boxes) const;
+  void addLit(std::vector<Beam> portion, std::span<const ReceiverBox> boxes);
   void upload();
   void ensureImages(std::size_t set);
   void drawReceivers(gpu::CommandList& commands, const GpuScene& gpuScene, std::size_t set);

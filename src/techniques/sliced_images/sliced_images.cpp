@@ -53,7 +53,7 @@ PlaneSet plan(const Scene& scene, std::span<const Beam> beams, std::span<const R
 
 std::unique_ptr<Technique> makeSlicedImages(const TechniqueContext& context) {
   return std::make_unique<PlaneTechnique>(
-      context, PlaneTechniqueTraits{plan, false, "receivers across the view", "caustics maps"});
+      context, PlaneTechniqueTraits{plan, false, true, "receivers across the view", "caustics maps"});
 }
 
 }  // namespace nephroid
