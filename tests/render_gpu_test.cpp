@@ -421,27 +421,5 @@ TEST_F(Frame, TheSameSceneGivesTheSameBytesAndAMovedLightOthers) {
   EXPECT_NE(picture, picture_.bytes);
 }
 
-TEST_F(Frame, MovingObjectsNeedsNoNewRenderer) {
-  Scene scene = floorScene();
-  scene.meshes.push_back(box(vec3(0.3f)));
-  scene.objects.push_back({"block", 1, 0, {vec3(-0.5f, 0.5f, 0), quat(1, 0, 0, 0), 1}, std::nullopt});
-  scene.lights.push_back(pointLight({1, 2, 1}, vec3(20)));
-  Scene moved = scene;
-  moved.objects[1].placement = {vec3(0.4f, 0.7f, 0.2f), glm::angleAxis(1.0f, vec3(0, 1, 0)), 1.5f};
-  moved.lights[0].position = {-1, 3, 0};
-  Stats stats;
-  Progress progress;
-  TechniqueSettings settings;
-  settings.technique = "none";
-  SceneTransport transport(scene, settings, progress);
-  const auto technique = makeTechnique({device(), settings, transport, stats});
-  Renderer renderer(device(), transport, {.size = kSize, .shadowMapSize = 1024}, *technique);
-  renderer.render(scene);
-  renderer.render(moved);
-  const std::vector<uint8_t> picture = renderer.picture().bytes;
-  layersOf(moved);
-  EXPECT_EQ(picture, picture_.bytes);
-}
-
 }  // namespace
 }  // namespace nephroid

@@ -77,6 +77,7 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
 
 void Renderer::resize(uvec2 size) {
   settings_.size = size;
+  lastScene_ = {};
   images_ = createFrameImages(device_, size.x, size.y);
   directLight_.resize(shadowMapSizeOf(settings_));
   shafts_.resize(size);
@@ -84,10 +85,12 @@ void Renderer::resize(uvec2 size) {
 
 std::vector<PassTime> Renderer::render(const Scene& scene) {
   std::vector<PassTime> passes;
+  const Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.followsCamera());
   onHost(passes, "placement", [&] { place(scene); });
   onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_, shafts_.lightsInAir()); });
-  onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
-  onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
+  if (remade.beams) onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
+  if (remade.sight)
+    onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
   ensureImages();
 
   do drawFrame(passes);
@@ -101,11 +104,14 @@ void Renderer::drawFrame(std::vector<PassTime>& passes) {
     passes.insert(passes.end(), some.begin(), some.end());
   };
   onDevice([&](gpu::CommandList& commands) {
-    commands.pass("shadow maps", [&] { directLight_.recordShadowMaps(commands, gpuScene_); });
-    technique_.record(commands, gpuScene_);
+    if (remade.shadowMaps)
+      commands.pass("shadow maps", [&] { directLight_.recordShadowMaps(commands, gpuScene_); });
+    if (remade.beams) technique_.record(commands, gpuScene_);
     if (shafts_) commands.pass("depths of the air", [&] { shafts_.recordDepths(commands); });
-    commands.pass("receivers", [&] { drawReceivers(commands); });
-    sight_.record(commands, gpuScene_, images_);
+    if (remade.sight) {
+      commands.pass("receivers", [&] { drawReceivers(commands); });
+      sight_.record(commands, gpuScene_, images_);
+    }
     if (!shafts_) illuminate(commands);
   });
   if (!shafts_) return;

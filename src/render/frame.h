@@ -7,6 +7,7 @@
 #include "render/direct_light.h"
 #include "render/frame_data.h"
 #include "render/frame_resources.h"
+#include "render/last_scene.h"
 #include "render/sight/sight_pass.h"
 #include "render/view.h"
 #include "techniques/sources.h"
@@ -19,6 +20,9 @@ struct RenderSettings {
   uint32_t shadowMapSize = 0;  // texels along a side; 0: as many as pixels along the picture's longer side
   SightSettings sight;
   ShaftSettings shafts;
+  // Shadow maps and beams of the last frame are kept while all that they depend on stands still. Without it
+  // each frame does all that a moved light would change.
+  bool keepsLight = false;
 };
 
 // A picture of `size` pixels as `settings` ask for it.
@@ -42,8 +46,8 @@ class Renderer {
   void resize(uvec2 size);
   uvec2 size() const { return settings_.size; }
 
-  // A whole frame, with all that a moved light, camera or object would change. Returns the time in each pass,
-  // on the host and on the device, in the order in which they ran.
+  // A whole frame. What the camera sees is kept from the last one while it and all objects stand still.
+  // Returns the time in each pass, on the host and on the device, in the order in which they ran.
   std::vector<PassTime> render(const Scene& scene);
 
   // Of the last frame: exposed, tone-mapped, sRGB, RGB.
@@ -80,6 +84,8 @@ class Renderer {
   SightPass sight_;
   DirectLight directLight_;
   Shafts shafts_;
+
+  LastScene lastScene_;
 
   // Of the frame being made.
   View view_{};
