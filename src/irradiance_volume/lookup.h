@@ -129,7 +129,8 @@ SHARED_FUNCTION VolumeLight brickLight(VolumeView volume, vec3 place) {
 }
 
 // Where a place, in regions' radii from the centre, lies among the shells: across them, as cells of a
-// subdivided octahedron about the light's direction, then from shell to shell.
+// subdivided octahedron about the light's direction, then from shell to shell. What flows in from beyond the
+// last one is as there.
 SHARED_FUNCTION vec3 placeInShells(VolumeView volume, vec3 place) {
   float radius = length(place);
   vec2 square = octahedralFromDirection(radius > 0.0f ? place / radius : vec3(0.0f, 0.0f, 1.0f));
@@ -139,7 +140,7 @@ SHARED_FUNCTION vec3 placeInShells(VolumeView volume, vec3 place) {
   uint before = min(uint(along), kShellRadii - 1u);
   float shell = mix(uintBitsToFloat(volumeWord(volume, 1u + before)),
                     uintBitsToFloat(volumeWord(volume, 2u + before)), along - float(before));
-  return vec3(across.x, across.y, radius <= 1.0f ? shell : -1.0f);
+  return vec3(across.x, across.y, shell);
 }
 
 SHARED_FUNCTION VolumeLight volumeLight(VolumeView volume, uint representation, vec3 place) {
@@ -213,6 +214,13 @@ SHARED_FUNCTION vec4 placeInRegion(vec3 place, vec3 source) {
   float square = b * b - a * c;
   float part = square >= 0.0f && a > 0.0f ? (sqrt(square) - b) / a : 0.0f;
   return part > 0.0f && part < 1.0f ? vec4(source + part * away, part * part) : vec4(0.0f);
+}
+
+// Light of the region's edge, which leaves it along the unit vector `outward`, as it goes on along the unit
+// vector `away` from the source: what crosses the edge is what crosses any surface beyond.
+SHARED_FUNCTION vec3 spreadOn(vec3 vector, vec3 outward, vec3 away) {
+  const float kLeastCosine = 0.1f;
+  return (max(dot(vector, outward), 0.0f) / max(dot(away, outward), kLeastCosine)) * away;
 }
 
 // Lux by channel on a surface of unit normal `normal`, on the side that it points to.

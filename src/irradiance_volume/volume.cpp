@@ -189,10 +189,13 @@ vec3 IrradianceVolume::illuminance(vec3 point, vec3 normal, vec3 direction,
   for (const Part& part : prepared_.parts) {
     const SampleLayout& layout = part.view.layout;
     if (layout.words == 0) continue;
-    const vec4 inRegion = placeInRegion(part.toFrame * place / radius, layout.source);
+    const vec3 there = part.toFrame * place / radius;
+    const vec4 inRegion = placeInRegion(there, layout.source);
     if (inRegion.w == 0) continue;
-    const VolumeLight light =
+    VolumeLight light =
         lightAt(layout, part.view.words, key_.settings.representation, radius * vec3(inRegion), part.flow);
+    if (inRegion.w < 1)
+      light.vector = spreadOn(light.vector, normalize(vec3(inRegion)), normalize(there - layout.source));
     sum += inRegion.w * part.weight * surfaceIlluminance(light, part.toFrame * normal);
   }
   return sum;

@@ -53,8 +53,8 @@ void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const vec4 point = imageLoad(receiverPosition, pixel);
   if (point.w == 0) return;
-  const vec4 inRegion =
-      placeInRegion((point.xyz - constants.centre) * constants.inverseRadius, constants.source);
+  const vec3 there = (point.xyz - constants.centre) * constants.inverseRadius;
+  const vec4 inRegion = placeInRegion(there, constants.source);
   if (inRegion.w == 0) return;
   const vec3 place = mapped(vec4(constants.centre + inRegion.xyz / constants.inverseRadius, 1));
   const FlowView flow =
@@ -63,8 +63,11 @@ void main() {
   const uvec3 size =
       uvec3(constants.sizeAcross & lower, constants.sizeAcross >> 16u, constants.sizeAndFlowSide & lower);
   VolumeView volume = VolumeView(size, constants.words);
-  const VolumeLight light = flowedLight(volume, kRepresentation, flow, place);
+  VolumeLight light = flowedLight(volume, kRepresentation, flow, place);
   if (light.vector == vec3(0)) return;
+  if (inRegion.w < 1)
+    light.vector = spreadOn(light.vector, normalize(mapped(vec4(inRegion.xyz, 0))),
+                            normalize(mapped(vec4(there - constants.source, 0))));
   const vec3 normal = normalize(mapped(vec4(imageLoad(receiverNormal, pixel).xyz, 0)));
   causticsLux = vec4(inRegion.w * constants.lux * surfaceIlluminance(light, normal), 0);
 }
