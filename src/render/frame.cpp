@@ -93,12 +93,12 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
     onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
   ensureImages();
 
-  do drawFrame(passes);
+  do drawFrame(remade, passes);
   while (!technique_.finish());
   return summedByName(passes);
 }
 
-void Renderer::drawFrame(std::vector<PassTime>& passes) {
+void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
   const auto onDevice = [&](const std::function<void(gpu::CommandList&)>& record) {
     const std::vector<PassTime> some = device_.submitAndWait(record);
     passes.insert(passes.end(), some.begin(), some.end());

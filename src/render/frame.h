@@ -66,7 +66,7 @@ class Renderer {
 
  private:
   void place(const Scene& scene);
-  void drawFrame(std::vector<PassTime>& passes);
+  void drawFrame(const Remade& remade, std::vector<PassTime>& passes);
   void drawReceivers(gpu::CommandList& commands);
   void illuminate(gpu::CommandList& commands);
   void light(gpu::CommandList& commands, const SeenImages& seen, const std::optional<gpu::Region>& region);

@@ -54,8 +54,8 @@ struct Material {
       false;  // glTF transmission without a volume: light passes straight through, so no caustic
   bool isCaster() const { return type != MaterialType::diffuse; }
   bool isDispersive() const { return ior.x != ior.y || ior.y != ior.z; }
-  float inverseAttenuationDistance() const { return attenuationDistance > 0 ? 1 / attenuationDistance : 0; }
   bool operator==(const Material&) const = default;
+  float inverseAttenuationDistance() const { return attenuationDistance > 0 ? 1 / attenuationDistance : 0; }
 };
 
 // Triangles in the object's own space, counter-clockwise from outside. All arrays but `triangles` are per

@@ -48,7 +48,7 @@ class Technique {
   virtual bool followsCamera() const { return false; }
 
   // After the device has done a frame's work. False where a list turned out too short, and is longer now:
-  // all from `record` on is to be done again.
+  // each view is to be shaded again.
   virtual bool finish() { return true; }
 
   // Adds to `causticsLux` (rgba32f, the size of the points) the illuminance (lux) on each receiver point by

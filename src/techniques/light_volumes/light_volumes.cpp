@@ -69,6 +69,7 @@ class LightVolumes final : public Technique {
   const TransportSource& source;
   gpu::Program patches, beamOnPatch;
   gpu::Buffer counts, countsRead;
+  bool isFirstView = true;  // of the frame being made
   gpu::Buffer draws, noDraws, command;
   gpu::Image axesU, axesV;  // of the squares that pixels show
 
@@ -143,7 +144,6 @@ void LightVolumes::record(gpu::CommandList& commands, GpuScene&) {
   commands.pass("light volumes", [&] {
     beams.copy(commands);
     bounds.copy(commands);
-    commands.fill(counts, 0);
   });
 }
 
@@ -164,6 +164,8 @@ void LightVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& point
   const BeamDrawConstants drawing{still.address(), draws.address(), vec2(imageSize)};
   commands.pass("beams on patches", [&] {
     commands.copy(noDraws, command, sizeof(BeamDrawCommand));
+    if (isFirstView) commands.fill(counts, 0);
+    isFirstView = false;
     commands.barrier();
     commands.dispatch(patches, {(tiles.x + kTilesInGroup - 1) / kTilesInGroup * kThreads, tiles.y, 1},
                       listing,
@@ -177,6 +179,7 @@ void LightVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& point
 }
 
 bool LightVolumes::finish() {
+  isFirstView = true;
   const Counts counted = tree.beams.empty() ? Counts{} : countsRead.as<Counts>()[0];
   setCount(stats, "light_volumes", tree.beams.size());
   setCount(stats, "bounds_tested", counted.tested);
