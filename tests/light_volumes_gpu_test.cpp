@@ -156,6 +156,21 @@ TEST_F(LightVolumesGpuTest, HalvesOfTheWaterAddUpToTheWhole) {
   EXPECT_NEAR(flux, 1, 1e-3);
 }
 
+// Tinted water takes its part of the light on the way to what lies in it (Beer and Lambert).
+TEST_F(LightVolumesGpuTest, WaterTakesItsPartByDepth) {
+  Water water;
+  water.size = {6, 6};
+  water.grid = {60, 60};
+  Scene scene = waterOverBed(water, 1, {0.5f, -1, 0.2f});
+  const Sensor sensor{"bed", {-0.5f, -1, -0.5f}, {1, 0, 0}, {0, 0, 1}, {4, 4}};
+  const double clear = measure(scene, sensor)[0];
+  scene.materials[0].attenuationColor = vec3(0.6f);
+  scene.materials[0].attenuationDistance = 2;
+  const double sine = std::sqrt(1 - std::pow(double(scene.lights[0].direction.y), 2)) / double(kWaterIndex);
+  const double way = 1 / std::sqrt(1 - sine * sine);
+  for (const double lux : measure(scene, sensor)) EXPECT_NEAR(lux / clear, std::pow(0.6, way / 2), 1e-3);
+}
+
 // Still water throws the part of the sun that Fresnel says onto a wall above it, as high as the water is
 // long.
 TEST_F(LightVolumesGpuTest, WaterThrowsLightOntoWallsAboveIt) {

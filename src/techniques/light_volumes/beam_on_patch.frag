@@ -7,20 +7,22 @@
 
 #include "techniques/light_volumes/receiver_square.glsl.h"
 
-layout(constant_id = 0) const uint kIsStill = 0;
+layout(constant_id = 0) const uint kIsStill = 0;  // the flat-water approximation of the cosine
 layout(set = 0, binding = 0) uniform texture2D receiverPosition;
 layout(set = 0, binding = 1) uniform texture2D axesU;
 layout(set = 0, binding = 2) uniform texture2D axesV;
 layout(location = 0) flat in vec4 positions[3];
 layout(location = 3) flat in vec4 directions[3];
 layout(location = 6) flat in vec4 stillAndPatch;
+layout(location = 7) flat in vec3 extinction;
 layout(location = 0) out vec4 causticsLux;
 
-// The part of the beam's flux that the square holds; `cosine` is the mean of the corners' with the receiver.
-float shareOf(ReceiverSquare square, out float cosine) {
+// The part of the beam's flux that the square holds; `cosine` is the mean of the corners' with the receiver, `meanWay` that of how far (m)
+// they come.
+float shareOf(ReceiverSquare square, out float cosine, out float meanWay) {
   vec2 corners[3];
   vec3 lit;
-  float steepest = 1, sum = 0;
+  float steepest = 1, sum = 0, ways = 0;
   for (int i = 0; i < 3; ++i) {
     const float approach = -dot(directions[i].xyz, square.normal);
     const vec3 ahead = square.point - positions[i].xyz;
@@ -31,8 +33,10 @@ float shareOf(ReceiverSquare square, out float cosine) {
     lit[i] = way >= -tolerance && way <= positions[i].w + tolerance ? 1 : 0;
     steepest = min(steepest, approach);
     sum += approach;
+    ways += max(way, 0);
   }
   cosine = sum / 3;
+  meanWay = ways / 3;
   // Corners hidden by what stands before: the light fades toward them.
   const vec2 a = corners[0], b = corners[1], c = corners[2];
   const float all = doubledArea(a, b, c);
@@ -46,9 +50,10 @@ void main() {
   const ivec2 at = ivec2(gl_FragCoord.xy);
   const vec4 u = texelFetch(axesU, at, 0), v = texelFetch(axesV, at, 0);
   const ReceiverSquare square = squareFromTexels(texelFetch(receiverPosition, at, 0).xyz, u, v);
-  float cosine;
-  float share = shareOf(square, cosine);
+  float cosine, way;
+  float share = shareOf(square, cosine, way);
   if (v.w != stillAndPatch.w) share = 0;  // another patch's pixel
   if (kIsStill != 0) share *= max(-dot(stillAndPatch.xyz, square.normal), 0) / max(cosine, 1e-3);
-  causticsLux = vec4(vec3(directions[0].w, directions[1].w, directions[2].w) * (share * abs(square.inverseArea)), 0);
+  const vec3 flux = vec3(directions[0].w, directions[1].w, directions[2].w) * exp(-way * extinction);
+  causticsLux = vec4(flux * (share * abs(square.inverseArea)), 0);
 }

@@ -6,12 +6,12 @@
 
 #include "techniques/light_volumes/beam_texels.glsl.h"
 
-layout(constant_id = 0) const uint kIsStill = 0;  // the flat-water approximation of the cosine
 layout(push_constant, scalar) uniform Constants { BeamDrawConstants constants; };
 layout(set = 0, binding = 3) uniform utexture2D beamTexels;
 layout(location = 0) flat out vec4 positions[3];   // a: the reach
 layout(location = 3) flat out vec4 directions[3];  // a: a channel of the flux
-layout(location = 6) flat out vec4 stillAndPatch;  // the way that light would go through still water
+layout(location = 6) flat out vec4 stillAndPatch;
+layout(location = 7) flat out vec3 extinction;
 
 void main() {
   const BeamDraw draw = constants.draws.draw[gl_VertexIndex];
@@ -23,8 +23,9 @@ void main() {
     positions[i] = vec4(beam.position[i], beam.reach[i]);
     directions[i] = vec4(beam.direction[i], beam.flux[i]);
   }
-  const vec3 still = kIsStill != 0 ? constants.still.direction[draw.portion].xyz : vec3(0);
-  stillAndPatch = vec4(still, float(draw.square >> 8));
+  const BeamPortion portion = constants.portions.portion[draw.portion];
+  stillAndPatch = vec4(portion.still, float(draw.square >> 8));
+  extinction = portion.extinction;
   const float size = float(draw.square & 0xffu);
   const vec2 corner = vec2(draw.corner & 0xffffu, draw.corner >> 16);
   // A point is drawn only if its middle is in the image.

@@ -77,7 +77,7 @@ class LightVolumes final : public Technique {
   BeamTree tree;
   TexelList<Beam> beams{"light volumes"};
   TexelList<BeamBounds> bounds{"bounds of light volumes"};
-  gpu::Buffer still;
+  gpu::Buffer portionsRead;
 };
 
 gpu::RasterState stateOfDraws() {
@@ -106,13 +106,20 @@ LightVolumes::LightVolumes(const TechniqueContext& context)
   noDraws.write(std::vector{kNoDraws});
 }
 
-// The way that most of the light goes.
-vec4 meanDirection(const std::vector<Beam>& beams) {
+// Where most of the light of a portion goes, and through what.
+BeamPortion portionOf(const Scene& scene, uint32_t caster, const std::vector<Beam>& beams) {
   glm::dvec3 sum(0);
   for (const Beam& beam : beams)
     sum += double(beam.flux.x + beam.flux.y + beam.flux.z) *
            glm::dvec3(beam.direction[0] + beam.direction[1] + beam.direction[2]);
-  return vec4(vec3(sum / std::max(glm::length(sum), 1e-300)), 0);
+  BeamPortion portion{vec3(sum / std::max(glm::length(sum), 1e-300)), vec3(0)};
+  const Object& object = scene.objects[caster];
+  const bool isInWater = object.water && dot(portion.still, object.placement.direction({0, 1, 0})) < 0;
+  const Material& material = scene.materialOf(object);
+  if (isInWater)
+    portion.extinction =
+        -log(max(material.attenuationColor, vec3(1e-6f))) * material.inverseAttenuationDistance();
+  return portion;
 }
 
 void LightVolumes::reserve(uvec2 size) {
@@ -125,18 +132,18 @@ void LightVolumes::update(GpuScene&) {
   const Scene& scene = transport.scene();
   const std::vector<ReceiverBox> boxes = receiverBoxes(scene);
   std::vector<std::vector<Beam>> portions;
-  std::vector<vec4> directions;
+  std::vector<BeamPortion> ofPortions;
   for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths, casters)) {
     portions.push_back(refinedBeams(scene, source, queries, boxes, settings));
-    directions.push_back(meanDirection(portions.back()));
+    ofPortions.push_back(portionOf(scene, queries.front().query.object, portions.back()));
   }
   if (settings.contributionError > 0) leaveOutWeakest(portions, double(settings.contributionError));
   tree = buildBeamTree(portions);
   beams.write(device, tree.beams);
   bounds.write(device, tree.bounds);
-  gpu::ensureBuffer(device, still, "directions through still water", directions.size() * sizeof(vec4),
-                    gpu::MemoryKind::upload);
-  still.write(directions);
+  gpu::ensureBuffer(device, portionsRead, "portions of light volumes",
+                    ofPortions.size() * sizeof(BeamPortion), gpu::MemoryKind::upload);
+  portionsRead.write(ofPortions);
 }
 
 void LightVolumes::record(gpu::CommandList& commands, GpuScene&) {
@@ -161,7 +168,7 @@ void LightVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& point
   listing.root = tree.root;
   listing.corner = region.corner;
   listing.size = ivec2(region.size);
-  const BeamDrawConstants drawing{still.address(), draws.address(), vec2(imageSize)};
+  const BeamDrawConstants drawing{portionsRead.address(), draws.address(), vec2(imageSize)};
   commands.pass("beams on patches", [&] {
     commands.copy(noDraws, command, sizeof(BeamDrawCommand));
     if (isFirstView) commands.fill(counts, 0);

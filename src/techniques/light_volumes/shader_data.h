@@ -7,10 +7,6 @@
 #include "beams/footprint.h"
 
 #ifndef __cplusplus
-// The way that light of a portion would go through still water.
-layout(buffer_reference, scalar) readonly buffer StillDirections {
-  vec4 direction[];
-};
 layout(buffer_reference, scalar) buffer LightVolumeCounts {
   uint tested;  // bounds
   uint culled;  // of these, with all that is in them
@@ -36,6 +32,12 @@ SHARED_CONSTANT uint kTexelsOfBeam = 6u;
 // Pixels of a tile that show nearly one plane are a patch; the last takes all others.
 SHARED_CONSTANT uint kMostPatches = 4u;
 
+// Beams of one lamp and one caster.
+struct BeamPortion {
+  vec3 still;       // the way that its light would go through still water; unit
+  vec3 extinction;  // 1/m, of the water that its light goes through
+};
+
 // A beam on the pixels of one patch that it may light.
 struct BeamDraw {
   uint beam;
@@ -56,6 +58,9 @@ struct BeamDrawCommand {
 SHARED_END
 
 #ifndef __cplusplus
+layout(buffer_reference, scalar) readonly buffer BeamPortions {
+  BeamPortion portion[];
+};
 layout(buffer_reference, scalar) buffer BeamDraws {
   BeamDraw draw[];
 };
@@ -77,7 +82,7 @@ struct PatchConstants {
 };
 
 struct BeamDrawConstants {
-  BUFFER_ADDRESS(StillDirections) still;
+  BUFFER_ADDRESS(BeamPortions) portions;
   BUFFER_ADDRESS(BeamDraws) draws;
   vec2 imageSize;  // pixels
 };
