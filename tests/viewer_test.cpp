@@ -2,16 +2,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <thread>
 
 #include "core/error.h"
 #include "scene/framing.h"
+#include "scene/scene_toml.h"
 #include "scene/shapes.h"
+#include "temporary_folder.h"
 #include "viewer/camera_control.h"
 #include "viewer/frame_times.h"
 #include "viewer/picking.h"
+#include "viewer/preferences.h"
 #include "viewer/preparation.h"
+#include "viewer/reference_worker.h"
+#include "viewer/scene_lines.h"
 #include "viewer/scene_state.h"
+#include "viewer/scene_time.h"
 
 namespace nephroid {
 namespace {
@@ -270,6 +277,119 @@ TEST(FrameTimesShown, FollowSlowlyAndForgetPassesThatAreGone) {
   EXPECT_LT(times.passes()[0].milliseconds, 10);
   for (int i = 0; i < 100; ++i) times.add(20, {{"b", 16}});
   EXPECT_NEAR(times.milliseconds(), 20, 0.1);
+}
+
+TEST(Preferences, AreKeptAndForgivenWhenTheyCannotBeRead) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "nephroid" / "viewer.toml";
+  EXPECT_EQ(loadPreferences(file).windowSize, ViewerPreferences{}.windowSize);
+  savePreferences(file, {{900, 600}, false, true});
+  const ViewerPreferences kept = loadPreferences(file);
+  EXPECT_EQ(kept.windowSize, uvec2(900, 600));
+  EXPECT_FALSE(kept.arePanelsShown);
+  EXPECT_TRUE(kept.areTimesShown);
+  std::ofstream(file) << "width = \"wide\"\nheight = -5\n[";
+  EXPECT_EQ(loadPreferences(file).windowSize, ViewerPreferences{}.windowSize);
+}
+
+// A spot that swings and dims, and waves.
+constexpr const char* kMoving = R"([[light]]
+type = "spot"
+position = [0, 3, 0]
+target = [0, 0, 0.5]
+intensity = 10
+dimmer = [[0, 1], [2, 0.5]]
+pan = [[0, 0], [2, 90]]
+[[material]]
+name = "water"
+type = "dielectric"
+[[object]]
+shape = "water"
+material = "water"
+grid = [8, 8]
+waves = [{ amplitude = 0.1, wavelength = 1, speed = 0.3 }]
+)";
+
+TEST(SceneTimes, MoveWhatMovesByItselfAsLoadingThenWould) {
+  Scene scene = readTomlScene(kMoving, "scene.toml", 0);
+  SceneState asLoaded = stateOf(scene);
+  moveTo(scene, asLoaded, kMoving, 1);
+  const Scene then = readTomlScene(kMoving, "scene.toml", 1);
+  EXPECT_EQ(stateOf(scene), stateOf(then));
+  EXPECT_EQ(asLoaded, stateOf(then));
+  EXPECT_EQ(scene.meshes[0].positions, then.meshes[0].positions);
+}
+
+TEST(SceneTimes, LeaveWhatHandsChanged) {
+  Scene scene = readTomlScene(kMoving, "scene.toml", 0);
+  SceneState asLoaded = stateOf(scene);
+  scene.lights[0].direction = {1, 0, 0};
+  scene.lights[0].position = {5, 5, 5};
+  scene.lights[0].intensity *= 2;
+  moveTo(scene, asLoaded, kMoving, 2);
+  EXPECT_EQ(scene.lights[0].direction, vec3(1, 0, 0));
+  EXPECT_EQ(scene.lights[0].position, vec3(5, 5, 5));
+  EXPECT_NEAR(scene.lights[0].intensity.x, 10, 1e-4f);
+}
+
+TEST(SceneLines, BeamsLeaveTheBallAndSomeLightIsLost) {
+  const Scene scene = ballScene();
+  TechniqueSettings settings;
+  settings.source = Source::traced;
+  Progress progress;
+  SceneTransport transport(scene, settings, progress);
+  const std::vector<SceneLine> beams = beamLines(transport, Paths::transmission, 100);
+  ASSERT_FALSE(beams.empty());
+  EXPECT_LE(beams.size(), 300u);
+  for (const SceneLine& line : beams) EXPECT_NEAR(distance(line.from, vec3(0, 0.8f, 0)), 0.5f, 0.02f);
+  BeamCounts counts;
+  culledLines(transport, Paths::transmission, 100, counts);
+  EXPECT_GT(counts.carried, 0u);
+  EXPECT_GT(counts.unlit, 0u);
+  // From outside, all that enters a ball leaves it again; what grazes its facets may not.
+  EXPECT_LT(counts.lost, counts.carried / 10);
+}
+
+TEST(SceneLines, OfALatticeAreItsEdgesAndTheCellsOfItsFaces) {
+  const Lattice flat{LatticeKind::planes, vec3(0), {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0)}, uvec3(1)};
+  EXPECT_EQ(latticeLines({&flat, 1}, LatticeKind::planes).size(), 4u);
+  EXPECT_TRUE(latticeLines({&flat, 1}, LatticeKind::cells).empty());
+  const Lattice box{LatticeKind::cells, vec3(0), {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)}, uvec3(1)};
+  EXPECT_EQ(latticeLines({&box, 1}, LatticeKind::cells).size(), 12u);
+}
+
+// A picture that is 10 % too bright is 10 % off.
+TEST(ErrorViews, TellHowFarOffAPictureIs) {
+  Image reference, image;
+  reference.width = reference.height = image.width = image.height = 4;
+  for (const char* layer : {"", "caustics."})
+    for (const char channel : {'R', 'G', 'B'}) {
+      reference.channel(std::string(layer) + channel) = std::vector<float>(16, 2.0f);
+      image.channel(std::string(layer) + channel) = std::vector<float>(16, 2.2f);
+    }
+  const ErrorView view = errorView(reference, image);
+  EXPECT_NEAR(view.total.mape, 0.1, 1e-5);
+  EXPECT_NEAR(view.caustics.fluxRatio, 1.1, 1e-5);
+  EXPECT_GE(view.scaleEnd, 0.1);
+  EXPECT_EQ(view.picture.bytes.size(), 48u);
+}
+
+TEST(ReferenceWorkers, RefineUntilTheyAreStopped) {
+  Scene scene = ballScene();
+  ReferenceSettings settings = referenceSettingsFor(Paths::transmission, {16, 12});
+  settings.photons = 1000;
+  ReferenceWorker worker;
+  worker.start(scene, settings);
+  const auto hasPasses = [&](uint32_t passes) {
+    const auto view = worker.newest();
+    return view && view->passes >= passes;
+  };
+  for (int i = 0; i < 20000 && !hasPasses(2); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(hasPasses(2));
+  EXPECT_EQ(worker.newest()->picture.width, 16u);
+  worker.stop();
+  EXPECT_FALSE(worker.isRunning());
+  EXPECT_EQ(worker.newest(), nullptr);
 }
 
 }  // namespace

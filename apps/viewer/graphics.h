@@ -3,8 +3,10 @@
 
 #include <memory>
 
+#include "core/image.h"
 #include "gpu/swapchain.h"
 #include "gui.h"
+#include "render/show/output_view.h"
 #include "viewer.h"
 #include "viewer/stage.h"
 #include "window.h"
@@ -17,15 +19,22 @@ class Graphics {
 
   gpu::Device& device() { return device_; }
   Gui& gui() { return gui_; }
+  OutputView& outputView() { return outputView_; }
 
-  // Draws the panels over what of the picture lies below them, and shows all that in the window.
+  // Draws the panels, over the pictures among them, and shows all that in the window.
   void show(uvec2 framebufferSize);
+
+  // A picture that the host made.
+  void upload(const ByteImage& picture);
+  const gpu::Image& uploaded() const { return uploaded_; }
 
  private:
   gpu::Device device_;
   gpu::Swapchain swapchain_;
   Gui gui_;
+  OutputView outputView_;
   gpu::Image screen_;
+  gpu::Image uploaded_;
 
  public:
   // What is drawn of the scene; none until it is prepared. Goes before the device.

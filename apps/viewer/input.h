@@ -17,6 +17,7 @@ struct KeyPress {
   uint32_t text = 0;  // the character on the key in the user's layout; 0: none
   bool isShift = false;
   bool isControl = false;
+  bool isRepeated = false;  // held
 };
 
 struct Input {
@@ -24,6 +25,7 @@ struct Input {
   std::vector<std::filesystem::path> dropped;
   vec2 mouse{0};    // pixels of the framebuffer from the upper left corner
   vec2 moved{0};    // since the frame before
+  vec2 takenAt{0};  // as `mouse`, where the button went down that did so last
   float wheel = 0;  // steps away from the user
   bool isDown[kMouseButtons]{};
   bool wentDown[kMouseButtons]{};

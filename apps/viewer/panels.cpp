@@ -4,16 +4,12 @@
 
 #include "scene_panels.h"
 #include "settings_panel.h"
-#include "widgets.h"
+#include "view_panels.h"
 
 namespace nephroid {
 namespace {
 
-constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
-                                    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
-
-void drawSidePanel(ViewerState& state, const Area& area, float scale) {
+void drawSidePanel(ViewerState& state, const Area& area, float scale, float& seconds) {
   ImGui::SetNextWindowPos({area.corner.x, area.corner.y});
   ImGui::SetNextWindowSize({area.size.x, area.size.y});
   ImGui::Begin("panel", nullptr, kFixed);
@@ -26,43 +22,10 @@ void drawSidePanel(ViewerState& state, const Area& area, float scale) {
     drawMaterialsPanel(state);
     drawAirPanel(state);
     drawCameraPanel(state);
+    drawTimePanel(state, seconds);
+    drawViewPanel(state);
   }
   ImGui::PopItemWidth();
-  ImGui::End();
-}
-
-// Over the upper right corner of the picture.
-void drawTimes(const ViewerState& state, const Area& picture, float scale) {
-  ImGui::SetNextWindowPos({picture.corner.x + picture.size.x - 8 * scale, picture.corner.y + 8 * scale}, 0,
-                          {1, 0});
-  ImGui::SetNextWindowBgAlpha(0.75f);
-  ImGui::Begin("times", nullptr,
-               kFixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::Text("%.1f ms", state.times.milliseconds());
-  ImGui::SameLine();
-  ImGui::TextDisabled("%.1f frames/s", state.shownPerSecond);
-  if (ImGui::BeginTable("passes", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const PassTime& pass : state.times.passes()) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(pass.name.c_str());
-      ImGui::TableNextColumn();
-      textAtRight(formatted("%8.2f ms", pass.milliseconds), 72 * scale);
-    }
-    for (const auto& [name, count] : state.stats.counts) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", name.c_str());
-      ImGui::TableNextColumn();
-      textAtRight(formatted("%.0f", double(count)), 72 * scale);
-    }
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("device memory");
-    ImGui::TableNextColumn();
-    textAtRight(formatted("%.1f MB", double(state.memoryBytes) * 1e-6), 72 * scale);
-    ImGui::EndTable();
-  }
   ImGui::End();
 }
 
@@ -74,8 +37,7 @@ void drawStatus(ViewerState& state, const Area& picture, float scale) {
                           {0, 1});
   ImGui::SetNextWindowSizeConstraints({200 * scale, 0}, {picture.size.x - 16 * scale, 1e4f});
   ImGui::SetNextWindowBgAlpha(0.85f);
-  ImGui::Begin("status", nullptr,
-               kFixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::Begin("status", nullptr, kOverPicture);
   if (state.preparing) {
     ImGui::ProgressBar(static_cast<float>(state.preparing->fraction), {220 * scale, 0});
     ImGui::SameLine();
@@ -101,10 +63,11 @@ Area pictureArea(const ViewerState& state, vec2 windowSize, float scale) {
   return {{panel, 0}, {windowSize.x - panel, windowSize.y}};
 }
 
-void drawPanels(ViewerState& state, vec2 windowSize, float scale) {
+void drawPanels(ViewerState& state, vec2 windowSize, float scale, float& seconds) {
   const Area picture = pictureArea(state, windowSize, scale);
-  if (state.arePanelsShown) drawSidePanel(state, {{0, 0}, {picture.corner.x, windowSize.y}}, scale);
+  if (state.arePanelsShown) drawSidePanel(state, {{0, 0}, {picture.corner.x, windowSize.y}}, scale, seconds);
   if (state.areTimesShown && state.isOpen) drawTimes(state, picture, scale);
+  if (state.isOpen) drawLegend(state, picture, scale);
   drawStatus(state, picture, scale);
 }
 

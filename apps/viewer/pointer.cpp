@@ -49,7 +49,7 @@ void Pointer::use(const Input& input, const RayScene* rays, uvec2 size, bool isO
 }
 
 void Pointer::take(const Input& input, const RayScene* rays, uvec2 size, float reach, ViewerState& state) {
-  from_ = input.mouse;
+  from_ = input.takenAt;
   hasMoved_ = false;
   handle_.reset();
   const auto hold = [&](MouseButton button, Held what) {
@@ -61,10 +61,10 @@ void Pointer::take(const Input& input, const RayScene* rays, uvec2 size, float r
   if (!input.wentDown[static_cast<int>(MouseButton::left)]) return;
 
   hold(MouseButton::left, input.isShift ? Held::pan : Held::orbit);
-  handle_ = handleAt(state.scene, size, input.mouse, reach);
+  handle_ = handleAt(state.scene, size, input.takenAt, reach);
   Hit hit;
   const bool isObject = !handle_ && rays && state.selection.what == Chosen::object &&
-                        rays->intersect(rayThrough(state.scene.camera, size, input.mouse), hit) &&
+                        rays->intersect(rayThrough(state.scene.camera, size, input.takenAt), hit) &&
                         hit.object == state.selection.index;
   if (!handle_ && !isObject) return;
   if (handle_) state.selection = {Chosen::light, handle_->light};

@@ -4,102 +4,62 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
-#include <chrono>
+#include <new>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/interrupt.h"
-#include "graphics.h"
+#include "dialogs.h"
 #include "panels.h"
-#include "pointer.h"
-#include "scene/load.h"
-#include "techniques/registry.h"
 #include "viewer/camera_control.h"
+#include "viewer_loop.h"
 
 namespace nephroid {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr int kFramesToSettle = 3;  // that panels take to answer what was done to them
+constexpr double kIdleWait = 0.5;   // s
+constexpr double kBusyWait = 0.03;  // s, while something goes on beside the window
 
-constexpr uvec2 kFirstWindow{1280, 720};  // units
-constexpr int kFramesToSettle = 3;        // that panels take to answer what was done to them
-constexpr double kIdleWait = 0.5;         // s
-constexpr double kBusyWait = 0.03;        // s, while something is prepared
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-uvec2 windowSizeFor(const ViewerOptions& options) {
-  if (options.size.x == 0) return kFirstWindow;
-  return options.size + uvec2(options.arePanelsShown ? uint32_t(kPanelWidth) : 0u, 0u);
+// A run that is measured does not depend on how a window was left.
+ViewerPreferences preferencesFor(const ViewerOptions& options) {
+  ViewerPreferences preferences;
+  if (options.frames == 0) preferences = loadPreferences(preferencesFile());
+  if (options.size.x > 0) {
+    preferences.arePanelsShown = true;
+    preferences.windowSize = options.size + uvec2(uint32_t(kPanelWidth), 0);
+  }
+  return preferences;
 }
 
-// What the picture on the screen was made of.
-struct Drawn {
-  SceneState state;
-  Camera camera;
-  uvec2 size{0};
-  const Stage* stage = nullptr;
-  bool operator==(const Drawn&) const = default;
-};
+}  // namespace
 
-class Viewer {
- public:
-  explicit Viewer(const ViewerOptions& options);
-  void run();
+Viewer::Viewer(const ViewerOptions& options) : Viewer(options, preferencesFor(options)) {}
 
- private:
-  void open(const std::filesystem::path& file);
-  void prepare(std::function<Scene()> load);
-  void prepareWhatIsWanted();
-  void takePrepared();
-  void adopt(std::unique_ptr<Prepared> prepared);
-  double waitSeconds() const;
-  void receive(const Input& input);
-  void press(const KeyPress& key);
-  void moveByKeys(double seconds);
-  void usePointer(const Input& input);
-  void keepHistory();
-  uvec2 pictureSize() const;
-  bool drawPicture();  // whether there was anything new to draw
-  void layOut();
-  void showFrame();
-  void writeStatsOfFrames() const;
-
-  const ViewerOptions options_;
-  DesktopWindow window_;
-  std::unique_ptr<Graphics> graphics_;
-  ViewerState state_;
-  Pointer pointer_;
-  std::unique_ptr<Preparation> preparation_;
-  bool opensScene_ = false;  // what is prepared is another scene, not this one with other settings
-  std::filesystem::path opening_;
-  std::optional<std::pair<SceneState, TechniqueSettings>> failed_;  // what could not be prepared
-  SceneState preparedFor_;
-  GuiImage picture_;
-  Drawn drawn_;
-  int framesToGo_ = kFramesToSettle;  // until the window is at rest
-  Clock::time_point lastFrame_ = Clock::now();
-  std::vector<double> frameMilliseconds_;
-  double prepareMilliseconds_ = 0;
-  Clock::time_point preparationStart_;
-};
-
-Viewer::Viewer(const ViewerOptions& options)
+Viewer::Viewer(const ViewerOptions& options, const ViewerPreferences& preferences)
     : options_(options),
-      window_("nephroid", windowSizeFor(options)),
-      graphics_(std::make_unique<Graphics>(window_, options)) {
+      window_("nephroid", preferences.windowSize),
+      graphics_(std::make_unique<Graphics>(window_, options)),
+      framesToGo_(kFramesToSettle) {
   state_.settings = options.technique;
-  state_.arePanelsShown = options.arePanelsShown;
-  state_.areTimesShown = options.arePanelsShown;
+  state_.arePanelsShown = preferences.arePanelsShown;
+  state_.areTimesShown = preferences.areTimesShown;
   state_.device = graphics_->device().info().name;
 }
 
-void Viewer::open(const std::filesystem::path& file) {
-  opensScene_ = true;
-  opening_ = file;
-  prepare([file, time = options_.time] { return loadScene(file, time); });
+void Viewer::keepPreferences() const {
+  ViewerPreferences preferences;
+  if (options_.frames > 0) return;
+  // A size that was asked for once is not how the user likes windows.
+  preferences.windowSize =
+      options_.size.x > 0 ? loadPreferences(preferencesFile()).windowSize : window_.size();
+  preferences.arePanelsShown = state_.arePanelsShown;
+  preferences.areTimesShown = state_.areTimesShown;
+  savePreferences(preferencesFile(), preferences);
 }
 
 void Viewer::prepare(std::function<Scene()> load) {
@@ -115,10 +75,9 @@ void Viewer::prepareWhatIsWanted() {
   failed_.reset();
   const Stage* stage = graphics_->stage.get();
   if (stage && stage->settings() == state_.settings &&
-      !needsPreparation(preparedFor_, wanted, state_.settings))
+      !needsPreparation(stateOf(stage->scene()), wanted, state_.settings))
     return;
   opensScene_ = false;
-  preparedFor_ = wanted;
   prepare([scene = state_.scene] { return scene; });
 }
 
@@ -136,10 +95,9 @@ void Viewer::takePrepared() {
     adopt(done->take());
   } catch (const Interrupted&) {
     tell(state_, "Cancelled: the picture goes on as it was");
-    if (!opensScene_ && graphics_->stage) {
-      state_.settings = graphics_->stage->settings();
-      apply(state_.history.undo(), state_.scene);
-    }
+    if (opensScene_ || !graphics_->stage) return;
+    state_.settings = graphics_->stage->settings();
+    state_.scene.materials = graphics_->stage->scene().materials;
   } catch (const std::exception& wrong) {
     tell(state_, wrong.what(), true);
     if (!opensScene_) failed_ = {stateOf(state_.scene), state_.settings};
@@ -149,56 +107,27 @@ void Viewer::takePrepared() {
 void Viewer::adopt(std::unique_ptr<Prepared> prepared) {
   Scene scene = prepared->scene;
   graphics_->stage.reset();
-  graphics_->stage = std::make_unique<Stage>(graphics_->device(), std::move(prepared), pictureSize());
+  graphics_->stage =
+      std::make_unique<Stage>(graphics_->device(), std::move(prepared), pictureSize(), options_.frames == 0);
+  ++stageCount_;
   prepareMilliseconds_ = millisecondsSince(preparationStart_);
   if (!opensScene_) return;
+  const Camera before = state_.scene.camera;
+  const bool keepsCamera = std::exchange(keepsCamera_, false) && scene.camera == state_.firstCamera;
   state_.scene = std::move(scene);
   state_.file = opening_;
+  text_ = openingText_;
   state_.isOpen = true;
   state_.selection = {};
-  state_.firstState = preparedFor_ = stateOf(state_.scene);
+  state_.firstState = stateOf(state_.scene);
+  state_.firstCamera = state_.scene.camera;
   state_.history = History(state_.firstState);
-  window_.setTitle(state_.file.filename().string() + " - nephroid");
+  if (keepsCamera) state_.scene.camera = before;
 }
 
 double Viewer::waitSeconds() const {
-  if (options_.frames > 0 || framesToGo_ > 0) return 0;
-  return preparation_ ? kBusyWait : kIdleWait;
-}
-
-void Viewer::press(const KeyPress& key) {
-  const auto next = [&] {
-    const auto all = techniques();
-    const auto now = std::ranges::find(all, state_.settings.technique, &TechniqueEntry::name);
-    const auto index = static_cast<std::size_t>(now - all.begin());
-    state_.settings.technique = all[(index + (key.isShift ? all.size() - 1 : 1)) % all.size()].name;
-  };
-  if (key.isControl) {
-    if (key.key == GLFW_KEY_Z && !key.isShift) apply(state_.history.undo(), state_.scene);
-    if (key.key == GLFW_KEY_Y || (key.key == GLFW_KEY_Z && key.isShift))
-      apply(state_.history.redo(), state_.scene);
-    if (key.key == GLFW_KEY_Q) window_.setClosing(true);
-    return;
-  }
-  switch (key.key) {
-    case GLFW_KEY_TAB:
-      state_.arePanelsShown = !state_.arePanelsShown;
-      break;
-    case GLFW_KEY_T:
-      state_.areTimesShown = !state_.areTimesShown;
-      break;
-    case GLFW_KEY_M:
-      next();
-      break;
-    case GLFW_KEY_B:
-      state_.settings.source = state_.settings.source == Source::table ? Source::traced : Source::table;
-      break;
-    case GLFW_KEY_ESCAPE:
-      state_.selection = {};
-      break;
-    default:
-      break;
-  }
+  if (options_.frames > 0 || framesToGo_ > 0 || state_.isPlaying) return 0;
+  return preparation_ || referenceWorker_.isRunning() || !tasks_.empty() ? kBusyWait : kIdleWait;
 }
 
 // A step is a part of the way to what is looked at, so that it suits any scene.
@@ -207,7 +136,9 @@ void Viewer::moveByKeys(double seconds) {
   const vec3 way{held(GLFW_KEY_D) - held(GLFW_KEY_A), held(GLFW_KEY_PAGE_UP) - held(GLFW_KEY_PAGE_DOWN),
                  held(GLFW_KEY_W) - held(GLFW_KEY_S)};
   const vec2 around{held(GLFW_KEY_RIGHT) - held(GLFW_KEY_LEFT), held(GLFW_KEY_UP) - held(GLFW_KEY_DOWN)};
-  if (way == vec3(0) && around == vec2(0)) return;
+  // A key that went down with Ctrl does not fly when Ctrl is let go first.
+  if (way == vec3(0)) isFlightHeld_ = false;
+  if (isFlightHeld_ || (way == vec3(0) && around == vec2(0))) return;
   Camera& camera = state_.scene.camera;
   const auto step = static_cast<float>(std::min(seconds, 0.1));
   fly(camera, step * 0.7f * distance(camera.position, camera.target) * way);
@@ -220,6 +151,8 @@ void Viewer::usePointer(const Input& input) {
   const Area area = pictureArea(state_, vec2(window_.framebufferSize()), scale);
   Input inPicture = input;
   inPicture.mouse -= area.corner;
+  inPicture.takenAt -= area.corner;
+  mouse_ = inPicture.mouse;
   const RayScene* rays = graphics_->stage ? &graphics_->stage->rayScene() : nullptr;
   const bool isOver = !graphics_->gui().wantsMouse() && inPicture.mouse.x >= 0;
   pointer_.use(inPicture, rays, glm::max(uvec2(area.size), uvec2(1)), isOver, scale, state_);
@@ -229,12 +162,18 @@ void Viewer::receive(const Input& input) {
   const double seconds = millisecondsSince(lastFrame_) * 1e-3;
   lastFrame_ = Clock::now();
   if (input.isAny || pointer_.isHolding()) framesToGo_ = kFramesToSettle;
-  for (const std::filesystem::path& file : input.dropped) open(file);
-  if (!state_.isOpen) return;
-  if (!graphics_->gui().wantsKeyboard()) {
-    for (const KeyPress& key : input.presses) press(key);
-    if (!input.isControl) moveByKeys(seconds);
+  for (const std::filesystem::path& file : input.dropped) drop(file);
+  if (window_.isClosing()) close();
+  const bool isTyping = graphics_->gui().wantsKeyboard();
+  for (const KeyPress& key : input.presses) {
+    if (state_.question && key.key == GLFW_KEY_ESCAPE) state_.question->answer = Question::Answer::cancel;
+    if (!isTyping && !state_.question) press(key);
+    isFlightHeld_ |= key.isControl;
   }
+  state_.isReferenceHeld = !isTyping && window_.isHeld(GLFW_KEY_SPACE);
+  if (!state_.isOpen || state_.question) return;
+  if (!isTyping && !input.isControl) moveByKeys(seconds);
+  play(seconds);
   usePointer(input);
 }
 
@@ -252,15 +191,18 @@ uvec2 Viewer::pictureSize() const {
 bool Viewer::drawPicture() {
   if (!graphics_->stage || !state_.isOpen) return false;
   Stage& stage = *graphics_->stage;
-  const Drawn wanted{stateOf(state_.scene), state_.scene.camera, pictureSize(), &stage};
+  const Drawn wanted{stateOf(state_.scene), state_.scene.camera,    state_.scene.time,
+                     pictureSize(),         stage.settings().paths, stageCount_};
   if (wanted == drawn_ && options_.frames == 0) return false;
   if (wanted.size != stage.size()) stage.resize(wanted.size);
   const Clock::time_point start = Clock::now();
   const std::vector<PassTime> passes = stage.render(state_.scene);
   state_.times.add(millisecondsSince(start), passes);
   state_.stats = stage.stats();
+  state_.outputs = stage.renderer().outputs();
   state_.memoryBytes = graphics_->device().memoryBytes();
   drawn_ = wanted;
+  lastChange_ = Clock::now();
   return true;
 }
 
@@ -269,11 +211,21 @@ void Viewer::layOut() {
   const vec2 windowSize(io.DisplaySize.x, io.DisplaySize.y);
   const float scale = graphics_->gui().scale();
   const Area area = pictureArea(state_, windowSize, scale);
-  drawPanels(state_, windowSize, scale);
+  auto seconds = static_cast<float>(state_.scene.time);
+  drawPanels(state_, windowSize, scale, seconds);
+  if (seconds != static_cast<float>(state_.scene.time)) setTime(double(seconds));
+  drawDialogs(state_, keyBindings(), windowSize, scale);
   if (!graphics_->stage) return;
-  picture_ = {&graphics_->stage->renderer().images().picture, false};
   const vec2 end = area.corner + area.size;
   ImGui::GetBackgroundDrawList()->AddImage(picture_.id(), {area.corner.x, area.corner.y}, {end.x, end.y});
+  drawLines(area.corner, area.size);
+  drawHandles(area.corner, area.size);
+}
+
+void Viewer::showTitle() {
+  if (!state_.isOpen || !graphics_->stage) return;
+  window_.setTitle(state_.file.filename().string() + (isSaved() ? "" : "*") + " - " +
+                   graphics_->stage->settings().technique + " - nephroid");
 }
 
 void Viewer::showFrame() {
@@ -283,12 +235,31 @@ void Viewer::showFrame() {
   graphics_->gui().begin();
   layOut();
   keepHistory();
+  showTitle();
   const bool isNew = drawPicture();
+  refineReference();
+  chooseShownImage();
+  updateLines();
   graphics_->show(framebuffer);
   if (!isNew) return;
+  addToVideo();
   const double milliseconds = millisecondsSince(start);
   if (options_.frames > 0) frameMilliseconds_.push_back(milliseconds);
-  state_.shownPerSecond = 1000 / std::max(milliseconds, 1e-3);
+  state_.framesPerSecond = 1000 / std::max(milliseconds, 1e-3);
+}
+
+// The device was lost, or there was not enough memory: all on it is made anew. The scene as it was changed is
+// the host's, and stays.
+void Viewer::recover(const std::string& why) {
+  preparation_.reset();
+  graphics_.reset();
+  graphics_ = std::make_unique<Graphics>(window_, options_);
+  drawn_ = {};
+  uploaded_.reset();
+  linesOf_.reset();
+  // What failed is not tried again until something is changed.
+  if (state_.isOpen) failed_ = {stateOf(state_.scene), state_.settings};
+  tell(state_, why, true);
 }
 
 void Viewer::writeStatsOfFrames() const {
@@ -300,7 +271,7 @@ void Viewer::writeStatsOfFrames() const {
   stats.prepareMilliseconds = prepareMilliseconds_;
   stats.frameMilliseconds = median(frameMilliseconds_);
   stats.passes = state_.times.passes();
-  stats.memoryBytes = state_.memoryBytes;
+  stats.memoryBytes = graphics_->device().memoryBytes();
   setCount(stats, "frames", frameMilliseconds_.size());
   setCount(stats, "width", drawn_.size.x);
   setCount(stats, "height", drawn_.size.y);
@@ -309,21 +280,30 @@ void Viewer::writeStatsOfFrames() const {
 }
 
 void Viewer::run() {
-  if (!options_.scene.empty()) open(options_.scene);
-  while (!window_.isClosing()) {
+  if (!options_.scene.empty()) openNow(options_.scene);
+  while (true) {
     throwIfInterrupted();
     framesToGo_ = std::max(framesToGo_ - 1, 0);
     receive(window_.poll(waitSeconds()));
+    answerQuestion();
+    if (window_.isClosing()) break;
+    watchFile();
+    finishTasks();
     takePrepared();
     prepareWhatIsWanted();
-    showFrame();
+    try {
+      showFrame();
+    } catch (const RuntimeFailure& failure) {
+      recover(failure.what());
+    } catch (const std::bad_alloc&) {
+      recover("There was not enough memory for this; try fewer vertices, directions or texels");
+    }
     if (options_.frames > 0 && frameMilliseconds_.size() >= options_.frames) break;
-    if (options_.frames > 0 && !state_.isOpen && !preparation_) throw InputError(state_.message.text);
+    if (options_.frames > 0 && !graphics_->stage && !preparation_) throw InputError(state_.message.text);
   }
+  keepPreferences();
   writeStatsOfFrames();
 }
-
-}  // namespace
 
 void runViewer(const ViewerOptions& options) {
   Viewer(options).run();

@@ -17,7 +17,6 @@ struct ViewerOptions {
   std::string device;           // as gpu::DeviceOptions has it
   uint32_t frames = 0;          // so many, each made anew, and the end; 0: until the window is closed
   std::filesystem::path stats;  // of those frames; empty: none
-  bool arePanelsShown = true;
 };
 
 // Until the window is closed. Throws InputError where there is no display, or this program was built without

@@ -1,14 +1,20 @@
 // All that panels show and change.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
+#include "techniques/pass_output.h"
 #include "viewer/frame_times.h"
 #include "viewer/picking.h"
+#include "viewer/reference_worker.h"
+#include "viewer/scene_lines.h"
 #include "viewer/scene_state.h"
 
 namespace nephroid {
@@ -19,6 +25,21 @@ struct Message {
   std::chrono::steady_clock::time_point until{};
 };
 
+// What is to be done once it is clear what becomes of changes that are not saved.
+struct Question {
+  enum class About { close, open, reload };
+  enum class Answer { none, save, discard, cancel };
+  About about = About::close;
+  std::filesystem::path file;  // to be opened
+  Answer answer = Answer::none;
+};
+
+// What is drawn over the picture.
+enum class Overlay { beams, planes, slices, cells, culled };
+inline constexpr std::size_t kOverlays = 5;
+
+enum class Shown { picture, error, output };
+
 struct ViewerState {
   std::filesystem::path file;  // of the scene
   bool isOpen = false;         // there is a scene
@@ -26,21 +47,36 @@ struct ViewerState {
   TechniqueSettings settings;  // as they are wanted
   History history;
   SceneState firstState;  // as the file has it
+  Camera firstCamera;     // the same
   Selection selection;
 
+  Shown shown = Shown::picture;
+  std::string shownPass;    // whose output is shown
+  std::string shownOutput;  // which of its; empty: the first
+  std::vector<PassOutput> outputs;
+  std::array<bool, kOverlays> overlays{};
+  BeamCounts beamCounts;
+  bool isReferenceHeld = false;
+  std::shared_ptr<const ReferenceView> reference;  // the last there is of what is shown
+
   FrameTimes times;
-  double shownPerSecond = 0;  // frames
-  Stats stats;                // of the last frame: counts
-  uint64_t memoryBytes = 0;   // on the device
+  double framesPerSecond = 0;
+  Stats stats;               // of the last frame: counts
+  uint64_t memoryBytes = 0;  // on the device
   std::string device;
   std::optional<Progress::State> preparing;
   bool isPreparationCancelled = false;  // asked for by the user
   Message message;
+  std::optional<Question> question;
+  std::string recording;  // file of a video that is being made
 
+  bool isPlaying = false;  // time goes on
   bool arePanelsShown = true;
   bool areTimesShown = true;
   bool isHelpShown = false;
   uint32_t divisor = 1;  // pixels of the window along a pixel of the picture
+
+  bool isOverlaid(Overlay overlay) const { return overlays[static_cast<std::size_t>(overlay)]; }
 };
 
 inline void tell(ViewerState& state, std::string text, bool isError = false) {

@@ -33,6 +33,13 @@ Input& inputOf(GLFWwindow* window) {
   return *static_cast<Input*>(glfwGetWindowUserPointer(window));
 }
 
+vec2 pixelsPerUnit(GLFWwindow* window) {
+  ivec2 pixels(1), units(1);
+  glfwGetFramebufferSize(window, &pixels.x, &pixels.y);
+  glfwGetWindowSize(window, &units.x, &units.y);
+  return vec2(pixels) / vec2(glm::max(units, ivec2(1)));
+}
+
 uint32_t characterOn(int key, int scancode) {
   const char* name = glfwGetKeyName(key, scancode);
   return name && name[0] != 0 && name[1] == 0 ? static_cast<unsigned char>(name[0]) : 0;
@@ -43,12 +50,13 @@ void onKey(GLFWwindow* window, int key, int scancode, int action, int modifiers)
   input.isAny = true;
   if (action == GLFW_PRESS || action == GLFW_REPEAT)
     input.presses.push_back({key, characterOn(key, scancode), (modifiers & GLFW_MOD_SHIFT) != 0,
-                             (modifiers & GLFW_MOD_CONTROL) != 0});
+                             (modifiers & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
 }
 
 void onButton(GLFWwindow* window, int button, int action, int) {
   Input& input = inputOf(window);
   input.isAny = true;
+  if (action == GLFW_PRESS) input.takenAt = input.mouse;
   for (std::size_t i = 0; i < kButtons.size(); ++i)
     if (kButtons[i] == button) {
       (action == GLFW_PRESS ? input.wentDown : input.wentUp)[i] = true;
@@ -83,8 +91,15 @@ void DesktopWindow::listen() {
     inputOf(window).wheel += static_cast<float>(steps);
     inputOf(window).isAny = true;
   });
-  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double, double) { inputOf(window).isAny = true; });
-  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned) { inputOf(window).isAny = true; });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    inputOf(window).isAny = true;
+    inputOf(window).mouse = vec2(x, y) * pixelsPerUnit(window);
+  });
+  // The one key that is a character wherever it is on the keyboard.
+  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
+    inputOf(window).isAny = true;
+    if (character == '?') inputOf(window).presses.push_back({.key = GLFW_KEY_F1});
+  });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { inputOf(window).isAny = true; });
   glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { inputOf(window).isAny = true; });
   glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) { inputOf(window).isAny = true; });
@@ -116,12 +131,8 @@ Input DesktopWindow::poll(double seconds) {
     glfwWaitEventsTimeout(seconds);
   else
     glfwPollEvents();
-  double x = 0, y = 0;
-  glfwGetCursorPos(window_, &x, &y);
-  const vec2 pixelsPerUnit = vec2(framebufferSize()) / glm::max(vec2(size()), vec2(1));
-  const vec2 mouse = vec2(x, y) * pixelsPerUnit;
-  input_.moved = mouse - input_.mouse;
-  input_.mouse = mouse;
+  input_.moved = input_.mouse - lastMouse_;
+  lastMouse_ = input_.mouse;
   input_.isShift = isHeld(GLFW_KEY_LEFT_SHIFT) || isHeld(GLFW_KEY_RIGHT_SHIFT);
   input_.isControl = isHeld(GLFW_KEY_LEFT_CONTROL) || isHeld(GLFW_KEY_RIGHT_CONTROL);
   input_.heldAxis = -1;

@@ -44,6 +44,7 @@ class DesktopWindow {
 
   GLFWwindow* window_ = nullptr;
   Input input_;  // being collected
+  vec2 lastMouse_{0};
   std::string title_;
 };
 

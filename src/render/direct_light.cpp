@@ -164,6 +164,13 @@ void DirectLight::record(gpu::CommandList& commands, const GpuScene& gpuScene, c
   });
 }
 
+std::vector<const gpu::Image*> DirectLight::shadowMaps() const {
+  std::vector<const gpu::Image*> maps;
+  for (uint32_t i = 0; i < lightCount(); ++i)
+    if (!lights_[i].shadowed.maps.empty()) maps.push_back(&maps_[i]);
+  return maps;
+}
+
 std::array<gpu::Binding, 3> DirectLight::bindings(uint32_t light, const GpuScene& gpuScene) const {
   const DrawnLight& drawn = lights_[light];
   const std::size_t profile = std::min<std::size_t>(drawn.profile, profiles_.size() - 1);

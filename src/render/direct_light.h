@@ -65,6 +65,7 @@ class DirectLight {
   uint32_t lightCount() const { return static_cast<uint32_t>(lights_.size()); }
   const ProgramKey& key(uint32_t light) const { return lights_[light].key; }
   DirectConstants constants(uint32_t light) const;
+  std::vector<const gpu::Image*> shadowMaps() const;  // of lights that anything may shadow
   std::array<gpu::Binding, 3> bindings(uint32_t light, const GpuScene& gpuScene) const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <glm/gtc/constants.hpp>
 
 #include "gpu/transfer.h"
 #include "render/frame_data.h"
@@ -81,6 +82,7 @@ void Renderer::resize(uvec2 size) {
   images_ = createFrameImages(device_, size.x, size.y);
   directLight_.resize(shadowMapSizeOf(settings_));
   shafts_.resize(size);
+  technique_.reserve(size);
 }
 
 std::vector<PassTime> Renderer::render(const Scene& scene) {
@@ -223,6 +225,30 @@ ByteImage Renderer::picture() const {
   for (const auto& texel : texels)
     picture.bytes.insert(picture.bytes.end(), texel.begin(), texel.begin() + 3);
   return picture;
+}
+
+std::vector<PassOutput> Renderer::outputs() const {
+  const float exposure = exposure_ / glm::pi<float>();  // of lux, as white paper shows them
+  const SeenImages& seen = images_.seen;
+  std::vector<PassOutput> all;
+  for (const gpu::Image* map : directLight_.shadowMaps())
+    all.push_back({"shadow maps", "depths from a light", map, kShowDepth});
+  for (const PassOutput& output : technique_.outputs()) all.push_back(output);
+  all.insert(all.end(), {{"receivers", "albedo", &seen.albedo, kShowFactor},
+                         {"receivers", "normals", &seen.normal, kShowDirection},
+                         {"receivers", "positions", &seen.position, kShowPlace},
+                         {"receivers", "depth", &images_.depth, kShowNearness}});
+  if (sight_.region().size.x > 0)
+    all.insert(all.end(), {{"casters", "normals", &images_.casterNormal, kShowDirection},
+                           {"seen through casters", "transmittance", &seen.transmittance, kShowFactor}});
+  if (sight_.reflects())
+    all.insert(all.end(), {{"reflected by casters", "albedo", &images_.reflected.albedo, kShowFactor},
+                           {"reflected by casters", "normals", &images_.reflected.normal, kShowDirection}});
+  all.insert(all.end(), {{"direct light", "lux", &seen.directLux, kShowLight, exposure},
+                         {"caustics", "lux", &seen.causticsLux, kShowLight, exposure}});
+  if (shafts_) all.push_back({"shafts", "luminance", &shafts_.image(), kShowLight, exposure_});
+  all.push_back({"composite", "picture", &images_.picture, kShowPicture});
+  return all;
 }
 
 namespace {

@@ -61,6 +61,10 @@ class Renderer {
   // Of the last frame, as passes left them.
   const FrameImages& images() const { return images_; }
 
+  // Of the last frame: what passes left behind, and the slices that what casters show is looked for in.
+  std::vector<PassOutput> outputs() const;
+  std::vector<Lattice> slices() const { return sight_.lattices(); }
+
   GpuScene& gpuScene() { return gpuScene_; }
   const Shafts& shafts() const { return shafts_; }
 

@@ -154,6 +154,9 @@ void saveLight(const Light& before, const Light& after, const toml::table& table
 void saveObjects(const Scene& before, const Scene& after, TomlText& text,
                  std::vector<std::string>& notSaved) {
   std::size_t next = 0;
+  const auto addIfMoved = [&](std::size_t i) {
+    if (before.objects[i].placement != after.objects[i].placement) notSaved.push_back(before.objects[i].name);
+  };
   for (const toml::table* table : text.tables("object")) {
     if (!table->contains("import")) {
       if (next >= before.objects.size()) return;
@@ -163,9 +166,9 @@ void saveObjects(const Scene& before, const Scene& after, TomlText& text,
     }
     const std::string prefix = (*table)["name"].value_or("object " + std::to_string(next + 1)) + "/";
     for (; next < before.objects.size() && before.objects[next].name.starts_with(prefix); ++next)
-      if (before.objects[next].placement != after.objects[next].placement)
-        notSaved.push_back(before.objects[next].name);
+      addIfMoved(next);
   }
+  for (; next < before.objects.size(); ++next) addIfMoved(next);
 }
 
 // Of lists that the file has a part of, in a row: `first` is the place of its first table.
@@ -204,8 +207,8 @@ SavedScene savedScene(const std::string& source, const Scene& before, const Scen
 }
 
 std::string sceneAround(const std::filesystem::path& file) {
-  return "[[object]]\nname = \"" + file.stem().string() + "\"\nimport = \"" + file.filename().string() +
-         "\"\n";
+  return "[[object]]\nname = " + tomlString(file.stem().string()) +
+         "\nimport = " + tomlString(file.filename().string()) + "\n";
 }
 
 }  // namespace nephroid

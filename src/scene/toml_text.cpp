@@ -22,6 +22,15 @@ const toml::key* keyNamed(const toml::table& table, const std::string& name) {
 
 }  // namespace
 
+std::string tomlString(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
 std::string tomlNumber(float value) {
   char text[32];
   const auto [end, error] = std::to_chars(text, text + sizeof text, value == 0 ? 0.0f : value);

@@ -49,7 +49,8 @@ class TomlText {
   std::vector<std::pair<std::string, std::string>> added_;  // sections that were not there, and their text
 };
 
-// As TOML has them: as few digits as give the same float again.
+// As TOML has them. Numbers in as few digits as give the same float again.
+std::string tomlString(const std::string& text);
 std::string tomlNumber(float value);
 std::string tomlVector(vec3 value);
 std::string tomlColor(vec3 value);  // one number where the channels are alike

@@ -57,8 +57,18 @@ class Automatic final : public Technique {
     for (const auto& part : parts) isDone = part->finish() && isDone;
     return isDone;
   }
+  std::vector<Lattice> lattices() const override { return ofParts(&Technique::lattices); }
+  std::vector<PassOutput> outputs() const override { return ofParts(&Technique::outputs); }
 
  private:
+  template <class Element>
+  std::vector<Element> ofParts(std::vector<Element> (Technique::*get)() const) const {
+    std::vector<Element> all;
+    for (const auto& part : parts)
+      for (const Element& element : ((*part).*get)()) all.push_back(element);
+    return all;
+  }
+
   std::vector<std::unique_ptr<Technique>> parts;
 };
 

@@ -7,6 +7,8 @@
 #include "gpu/command_list.h"
 #include "scene/scene.h"
 #include "techniques/gpu_scene.h"
+#include "techniques/lattice.h"
+#include "techniques/pass_output.h"
 
 namespace nephroid {
 
@@ -30,7 +32,8 @@ class Technique {
   Technique& operator=(const Technique&) = delete;
   virtual ~Technique() = default;
 
-  // Once, before all else: the images of points that `shade` will be asked for are of this size.
+  // Before all else, and when they change: the images of points that `shade` will be asked for are of this
+  // size.
   virtual void reserve(uvec2 /*size*/) {}
 
   // What the host does in a frame: rays, beams, planes, of the scene that the technique's transport was
@@ -46,6 +49,10 @@ class Technique {
 
   // Whether `update` depends on where the camera stands.
   virtual bool followsCamera() const { return false; }
+
+  // Of the last frame: where in the scene it is computed, and what passes of its own left behind.
+  virtual std::vector<Lattice> lattices() const { return {}; }
+  virtual std::vector<PassOutput> outputs() const { return {}; }
 
   // After the device has done a frame's work. False where a list turned out too short, and is longer now:
   // each view is to be shaded again.

@@ -51,6 +51,8 @@ ReferenceSettings referenceSettingsFor(Paths paths, uvec2 size) {
   return settings;
 }
 
+ReferenceWorker::ReferenceWorker() = default;
+
 ReferenceWorker::~ReferenceWorker() {
   stop();
 }

@@ -33,7 +33,7 @@ struct ReferenceView {
 
 class ReferenceWorker {
  public:
-  ReferenceWorker() = default;
+  ReferenceWorker();
   ~ReferenceWorker();
   ReferenceWorker(const ReferenceWorker&) = delete;
   ReferenceWorker& operator=(const ReferenceWorker&) = delete;

@@ -51,6 +51,12 @@ bool needsPreparation(const SceneState& before, const SceneState& after, const T
   return isTinted(after) && !std::ranges::equal(before.placements, after.placements, isAsLarge);
 }
 
+void History::replace(const SceneState& state) {
+  const bool wasSaved = isSaved();
+  states_[now_] = state;
+  if (wasSaved) markSaved();
+}
+
 void History::add(const SceneState& state) {
   if (state == now()) return;
   states_.resize(now_ + 1);

@@ -47,6 +47,9 @@ class History {
   const SceneState& undo() { return states_[now_ -= canUndo()]; }
   const SceneState& redo() { return states_[now_ += canRedo()]; }
 
+  // In place of the state now: what moved by itself is no step.
+  void replace(const SceneState& state);
+
   void markSaved() { saved_ = states_[now_]; }
   bool isSaved() const { return !saved_ ? now_ == 0 : *saved_ == states_[now_]; }
 

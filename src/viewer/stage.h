@@ -12,8 +12,8 @@ namespace nephroid {
 
 class Stage {
  public:
-  // The device outlives it.
-  Stage(gpu::Device& device, std::unique_ptr<Prepared> prepared, uvec2 size);
+  // The device outlives it. `keepsLight` as RenderSettings has it.
+  Stage(gpu::Device& device, std::unique_ptr<Prepared> prepared, uvec2 size, bool keepsLight);
 
   // As Renderer::render. `scene` has the objects, meshes and lights that this was made of.
   std::vector<PassTime> render(const Scene& scene) { return renderer_.render(scene); }
@@ -25,7 +25,9 @@ class Stage {
   const Stats& stats() const { return stats_; }  // of the last frame: counts
   const RayScene& rayScene() const { return prepared_->transport->rayScene(); }
   SceneTransport& transport() { return *prepared_->transport; }
-  const Technique& technique() const { return *technique_; }
+  const Scene& scene() const { return prepared_->scene; }  // as it was prepared
+  // Of the last frame: where the technique and the frame compute.
+  std::vector<Lattice> lattices() const;
 
  private:
   std::unique_ptr<Prepared> prepared_;

@@ -155,6 +155,24 @@ void SightPass::upload(const View& view) {
     }
 }
 
+std::vector<Lattice> SightPass::lattices() const {
+  std::vector<Lattice> all;
+  for (const SeenCaster& caster : casters_)
+    for (uint32_t channel = 0; channel < caster.channels(); ++channel) {
+      const SliceSet& set = caster.slices[channel];
+      for (uint32_t i = 0; i < set.slices; ++i) {
+        if ((set.occupied >> i & 1u) == 0) continue;
+        const float depth = set.firstDepth * std::pow(set.depthRatio, float(i));
+        const vec3 right = depth / set.frame.scale * set.frame.axisU;
+        const vec3 down = depth / set.frame.scale * set.frame.axisV;
+        all.push_back({LatticeKind::slices,
+                       set.frame.apex + depth * set.frame.axisW - right - down,
+                       {2.0f * right, 2.0f * down, vec3(0)}});
+      }
+    }
+  return all;
+}
+
 void SightPass::ensureImages(uvec2 pictureSize) {
   if (casters_.empty()) return;
   const auto picture = [&](const char* name) {

@@ -16,6 +16,7 @@
 #include "render/sight/slices.h"
 #include "render/view.h"
 #include "techniques/gpu_scene.h"
+#include "techniques/lattice.h"
 #include "techniques/sources.h"
 
 namespace nephroid {
@@ -47,6 +48,9 @@ class SightPass {
   const gpu::Region& region() const { return region_; }
   bool disperses() const { return disperses_; }
   bool reflects() const { return reflects_; }
+
+  // Of the frame's slices of receivers, those that may hold any.
+  std::vector<Lattice> lattices() const;
 
   // Puts what casters show over the receivers in `images`, and the casters into their depth, in passes of its
   // own.

@@ -57,6 +57,7 @@ class IrradianceVolumes final : public Technique {
 
   void update(GpuScene& gpuScene) override;
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
+  std::vector<Lattice> lattices() const override;
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;
 
@@ -238,6 +239,30 @@ void IrradianceVolumes::update(GpuScene&) {
 void IrradianceVolumes::record(gpu::CommandList& commands, GpuScene&) {
   for (std::size_t i = 0; i < usedFlows; ++i) commands.copy(flows[i].staged, 0, flows[i].moves, 0);
   for (std::size_t i = 0; i < usedResolved; ++i) copyCells(commands, resolved[i].cells);
+}
+
+std::vector<Lattice> IrradianceVolumes::lattices() const {
+  std::vector<Lattice> all;
+  for (const Share& each : shares) {
+    const VolumeConstants& share = each.constants;
+    // Shells have no box of their own: that of the region stands for it.
+    const float radius = 1 / share.inverseRadius;
+    Lattice lattice{LatticeKind::cells, share.centre - radius, {}, uvec3(1)};
+    mat3 edges(2 * radius);
+    if (settings.representation != Representation::shells) {
+      const mat3 linear = glm::transpose(mat3(share.toPlaces[0], share.toPlaces[1], share.toPlaces[2]));
+      const vec3 offset(share.toPlaces[0].w, share.toPlaces[1].w, share.toPlaces[2].w);
+      const mat3 toWorld = glm::inverse(linear);
+      const uvec3 size(share.sizeAcross & 0xffffu, share.sizeAcross >> 16u, share.sizeAndFlowSide & 0xffffu);
+      const vec3 places = glm::max(vec3(size), vec3(2)) - 1.0f;
+      lattice.corner = toWorld * -offset;
+      edges = mat3(places.x * toWorld[0], places.y * toWorld[1], places.z * toWorld[2]);
+      lattice.cells = uvec3(places);
+    }
+    lattice.edges = {edges[0], edges[1], edges[2]};
+    all.push_back(lattice);
+  }
+  return all;
 }
 
 void IrradianceVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& points,

@@ -113,6 +113,30 @@ void PlaneTechnique::upload() {
   for (std::size_t set = 0; set < lit.size(); ++set) ensureImages(set);
 }
 
+std::vector<Lattice> PlaneTechnique::lattices() const {
+  std::vector<Lattice> all;
+  for (const LitPlanes& own : lit)
+    for (uint32_t plane = 0; plane < own.planes.planes; ++plane)
+      for (const Window& window : own.planes.windows) {
+        const float side = window.size / window.texelsPerMetre;
+        const vec3 corner = window.corner.x * own.planes.axisU + window.corner.y * own.planes.axisV +
+                            (own.planes.firstDepth + float(plane) * own.planes.depthStep) * own.planes.axisW;
+        all.push_back(
+            {LatticeKind::planes, corner, {side * own.planes.axisU, side * own.planes.axisV, vec3(0)}});
+      }
+  return all;
+}
+
+std::vector<PassOutput> PlaneTechnique::outputs() const {
+  constexpr float kShownUnits = 1e-6f;  // of the flux that is left in a texel
+  std::vector<PassOutput> all;
+  for (std::size_t set = 0; set < lit.size(); ++set) {
+    all.push_back({traits.viewPass, "depths", &images[set].depths, kShowDepth});
+    all.push_back({traits.texturesPass, "flux", &images[set].textures, kShowLight, kShownUnits});
+  }
+  return all;
+}
+
 void PlaneTechnique::ensureImages(std::size_t set) {
   const auto image = [&](const char* name, VkFormat format, uint32_t layers) {
     return gpu::createImage(

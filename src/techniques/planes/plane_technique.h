@@ -32,6 +32,8 @@ class PlaneTechnique final : public Technique {
 
   void update(GpuScene& gpuScene) override;
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
+  std::vector<Lattice> lattices() const override;
+  std::vector<PassOutput> outputs() const override;
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;
   bool followsCamera() const override { return traits.followCamera; }

@@ -1,0 +1,11 @@
+// What lies over everything: help, and questions.
+#pragma once
+
+#include "key_bindings.h"
+#include "viewer_state.h"
+
+namespace nephroid {
+
+void drawDialogs(ViewerState& state, std::span<const KeyBinding> keys, vec2 windowSize, float scale);
+
+}  // namespace nephroid

@@ -1,0 +1,141 @@
+// The viewer from frame to frame. Its functions stand in files by what they are about.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "graphics.h"
+#include "key_bindings.h"
+#include "pointer.h"
+#include "viewer.h"
+#include "viewer/preferences.h"
+#include "viewer/preparation.h"
+#include "viewer/reference_worker.h"
+#include "viewer/video_pipe.h"
+#include "viewer_state.h"
+
+namespace nephroid {
+
+class Viewer {
+ public:
+  explicit Viewer(const ViewerOptions& options);
+  void run();
+
+  ViewerState& state() { return state_; }
+
+  // viewer_files.cpp
+  void open(const std::filesystem::path& file);  // asks before changes are lost
+  void reload();
+  bool save();
+  bool isSaved() const;
+  void takePicture(const char* extension);
+  void recordVideo();  // or end it
+  void close();        // asks before changes are lost
+  // viewer_time.cpp
+  void setTime(double seconds);
+  void dropStone();  // where the pointer is
+  // viewer_views.cpp
+  void show(const char* pass, const char* output);
+
+ private:
+  // viewer.cpp
+  Viewer(const ViewerOptions& options, const ViewerPreferences& preferences);
+  void keepPreferences() const;
+  void prepare(std::function<Scene()> load);
+  void prepareWhatIsWanted();
+  void takePrepared();
+  void adopt(std::unique_ptr<Prepared> prepared);
+  double waitSeconds() const;
+  void receive(const Input& input);
+  void moveByKeys(double seconds);
+  void usePointer(const Input& input);
+  void keepHistory();
+  uvec2 pictureSize() const;
+  bool drawPicture();  // whether there was anything new to draw
+  void layOut();
+  void showTitle();
+  void showFrame();
+  void recover(const std::string& why);
+  void writeStatsOfFrames() const;
+  // viewer_keys.cpp
+  void press(const KeyPress& key);
+  // viewer_files.cpp
+  void openNow(const std::filesystem::path& file);
+  void drop(const std::filesystem::path& file);
+  void addMesh(const std::filesystem::path& file);
+  void watchFile();
+  void answerQuestion();
+  void finishTasks();
+  void addToVideo();
+  Scene sceneAsLoaded() const;
+  // viewer_views.cpp
+  void refineReference();
+  void chooseShownImage();
+  void updateLines();
+  void drawLines(vec2 corner, vec2 size) const;
+  void drawHandles(vec2 corner, vec2 size) const;
+  // viewer_time.cpp
+  void play(double seconds);
+
+  // What the picture on the screen was made of.
+  struct Drawn {
+    SceneState state;
+    Camera camera;
+    double time = 0;
+    uvec2 size{0};
+    Paths paths = Paths::transmission;
+    uint32_t stage = 0;  // counted
+    bool operator==(const Drawn&) const = default;
+  };
+  // Apart from how it was drawn: one reference serves both.
+  static bool seeTheSame(Drawn a, const Drawn& b);
+
+  using Clock = std::chrono::steady_clock;
+
+  const ViewerOptions options_;
+  DesktopWindow window_;
+  std::unique_ptr<Graphics> graphics_;
+  ViewerState state_;
+  Pointer pointer_;
+  vec2 mouse_{0};  // in the picture, pixels of the window
+
+  std::unique_ptr<Preparation> preparation_;
+  bool opensScene_ = false;  // what is prepared is another scene, not this one with other settings
+  std::filesystem::path opening_;
+  std::string openingText_;
+  bool keepsCamera_ = false;                                        // of the scene that is opened
+  std::optional<std::pair<SceneState, TechniqueSettings>> failed_;  // what could not be prepared
+  Clock::time_point preparationStart_;
+  double prepareMilliseconds_ = 0;
+
+  std::string text_;  // of the scene's file, as it is saved; empty for glTF
+  bool isTextSaved_ = true;
+  std::filesystem::file_time_type fileTime_{}, lastSeenTime_{};
+  Clock::time_point lastWatch_{};
+  std::vector<std::future<std::string>> tasks_;  // each ends with what there is to say
+  std::unique_ptr<VideoPipe> video_;
+
+  ReferenceWorker referenceWorker_;
+  std::optional<Drawn> referenceOf_;
+  std::optional<Drawn> comparedOf_;
+  std::shared_ptr<const ReferenceView> uploaded_;
+  bool isErrorUploaded_ = false;
+  std::vector<SceneLine> lines_;
+  std::optional<std::pair<Drawn, std::array<bool, kOverlays>>> linesOf_;
+
+  GuiImage picture_;
+  uint32_t stageCount_ = 0;
+  Drawn drawn_;
+  bool isFlightHeld_ = false;
+  int framesToGo_ = 0;  // until the window is at rest
+  Clock::time_point lastFrame_ = Clock::now();
+  Clock::time_point lastChange_ = Clock::now();
+  std::vector<double> frameMilliseconds_;
+};
+
+}  // namespace nephroid
