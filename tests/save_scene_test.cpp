@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 
 #include "core/error.h"
 #include "scene/dispersion.h"
 #include "scene/scene_toml.h"
+#include "scene/wave_simulation.h"
 
 namespace nephroid {
 namespace {
@@ -197,6 +199,56 @@ TEST(SavedScene, ALightThatIsSwitchedOnAgainIsAsBrightAsItWasMade) {
   Scene after = before;
   after.lights[0].intensity = vec3(7);
   expectAlike(sceneOf(savedScene(dark, before, after).text), after);
+}
+
+// Water with this between its heading and the next; what is saved of it with two stones more.
+struct StonesSaved {
+  Scene after;
+  SavedScene saved;
+};
+
+StonesSaved withStones(const std::string& simulation) {
+  const std::string text =
+      "material = [{ name = \"w\", type = \"dielectric\" }]\n[[object]]\nshape = \"water\"\n"
+      "grid = [9, 9]\nmaterial = \"w\"\n" +
+      simulation + "\n[environment]\nambient = 1\n";
+  const Scene before = sceneOf(text, 0.5);
+  Scene after = before;
+  Water& water = *after.objects[0].water;
+  if (!water.simulation) water.simulation.emplace();
+  water.simulation->drops.push_back({0.25f, {0.1f, -0.2f}, 0.05f, 0.01f});
+  water.simulation->drops.push_back({0.3f, {0.3f, 0.2f}, 0.07f, 0.02f});
+  return {after, savedScene(text, before, after)};
+}
+
+TEST(SavedScene, KeepsStonesThatFellIntoWaterHoweverItsDropsAreWritten) {
+  for (const char* simulation :
+       {"", "simulation = { speed = 2 }", "[object.simulation]\nspeed = 2 # m/s\n",
+        "[object.simulation]\ndrops = []\n",
+        "[object.simulation]\ndrops = [{ time = 0.1 }, { time = 0.2 }]\n",
+        "[object.simulation]\ndrops = [\n  { time = 0.1 }, # one\n  { time = 0.2 }\n]\n",
+        "[object.simulation]\nspeed = 2\n[[object.simulation.drops]]\ntime = 0.1 # one\n"}) {
+    SCOPED_TRACE(simulation);
+    const StonesSaved stones = withStones(simulation);
+    EXPECT_TRUE(stones.saved.notSaved.empty());
+    const std::string commented = std::string(simulation).find("# one") != std::string::npos ? "# one" : "";
+    EXPECT_NE(stones.saved.text.find(commented), std::string::npos);
+    const Scene loaded = sceneOf(stones.saved.text, 0.5);
+    const WaveSimulation& is = *loaded.objects[0].water->simulation;
+    const WaveSimulation& was = *stones.after.objects[0].water->simulation;
+    EXPECT_EQ(is.speed, was.speed);
+    EXPECT_TRUE(std::ranges::is_permutation(is.drops, was.drops)) << stones.saved.text;
+  }
+}
+
+TEST(SavedScene, TakesBackStonesThatWereSaved) {
+  const StonesSaved stones = withStones("[object.simulation]\ndrops = [{ time = 0.1 }]\n");
+  const Scene before = sceneOf(stones.saved.text, 0.5);
+  Scene after = before;
+  after.objects[0].water->simulation->drops.pop_back();
+  const SavedScene saved = savedScene(stones.saved.text, before, after);
+  EXPECT_EQ(sceneOf(saved.text, 0.5).objects[0].water->simulation->drops,
+            after.objects[0].water->simulation->drops);
 }
 
 TEST(SavedScene, SaysWhatHasNoPlaceInTheFile) {

@@ -1,19 +1,14 @@
 // The viewer driven as a person would: a real window, on a display of its own, under a mouse and keys that
 // xdotool moves.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "core/error.h"
 #include "core/image_io.h"
-#include "gpu/device.h"
+#include "hidden_display.h"
 #include "run_program.h"
 #include "scene/load.h"
 #include "viewer/picking.h"
@@ -22,11 +17,9 @@ namespace nephroid {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 constexpr uvec2 kSize{160, 120};
 constexpr float kPanelWidth = 330;
-constexpr auto kPatience = std::chrono::seconds(40);
 
 // Tables and volumes are small here: what is looked at is the viewer.
 const std::vector<std::string> kQuick{"--texture-size",        "64",     "--directions",     "9",
@@ -70,93 +63,10 @@ position = [0.6, 1.5, 0.4]
 intensity = 20
 )";
 
-// A child process, ended with this.
-class Process {
- public:
-  Process(const std::vector<std::string>& command, const std::vector<std::string>& environment,
-          const fs::path& folder, const fs::path& output) {
-    std::vector<char*> arguments;
-    for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
-    arguments.push_back(nullptr);
-    id_ = fork();
-    if (id_ != 0) return;
-    for (const std::string& variable : environment) putenv(const_cast<char*>(variable.c_str()));
-    const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    dup2(file, STDOUT_FILENO);
-    dup2(file, STDERR_FILENO);
-    if (chdir(folder.c_str()) == 0) execvp(arguments[0], arguments.data());
-    _exit(127);
-  }
-  ~Process() {
-    if (isRunning()) kill(id_, SIGKILL);
-    wait();
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-
-  bool isRunning() {
-    if (!isEnded_ && waitpid(id_, &status_, WNOHANG) == id_) isEnded_ = true;
-    return !isEnded_;
-  }
-  int wait() {
-    if (!isEnded_) waitpid(id_, &status_, 0);
-    isEnded_ = true;
-    return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
-  }
-  // Bytes in memory.
-  std::size_t resident() const {
-    std::ifstream file("/proc/" + std::to_string(id_) + "/statm");
-    std::size_t size = 0, pages = 0;
-    file >> size >> pages;
-    return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  }
-
- private:
-  pid_t id_ = 0;
-  int status_ = 0;
-  bool isEnded_ = false;
-};
-
-bool isInstalled(const std::string& program) {
-  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-template <class Condition>
-bool waitUntil(const Condition& condition) {
-  for (const Clock::time_point end = Clock::now() + kPatience; Clock::now() < end;) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(40));
-  }
-  return false;
-}
-
-// A display that nobody looks at.
-class ViewWindow : public testing::Test {
+class ViewWindow : public HiddenDisplayTest {
  protected:
-  static void SetUpTestSuite() {
-    if (!isInstalled("Xvfb") || !isInstalled("xdotool")) return;
-    shared_ = std::make_unique<TemporaryFolder>();
-    const fs::path number = *shared_ / "display";
-    server_ = std::make_unique<Process>(
-        std::vector<std::string>{
-            "sh", "-c",
-            "exec Xvfb -displayfd 3 -noreset -screen 0 1280x720x24 -nolisten tcp 3>" + number.string()},
-        std::vector<std::string>{}, *shared_ / "", *shared_ / "log");
-    if (waitUntil([&] { return !readAll(number).empty() || !server_->isRunning(); }))
-      display_ = "DISPLAY=:" + readAll(number).substr(0, readAll(number).find('\n'));
-  }
-  static void TearDownTestSuite() {
-    server_.reset();
-    shared_.reset();
-  }
-
   void SetUp() override {
-    try {
-      gpu::listDevices();
-    } catch (const RuntimeFailure& none) {
-      GTEST_SKIP() << "there is no Vulkan driver: " << none.what();
-    }
-    if (display_.empty()) GTEST_SKIP() << "there is no Xvfb, or no xdotool";
+    HiddenDisplayTest::SetUp();
     std::ofstream(folder_ / "scene.toml") << kScene;
   }
 
@@ -167,21 +77,20 @@ class ViewWindow : public testing::Test {
     command.insert(command.end(), arguments.begin(), arguments.end());
     return std::make_unique<Process>(
         command,
-        std::vector<std::string>{display_, "NEPHROID_VALIDATION=1",
+        std::vector<std::string>{"DISPLAY=" + display_, "NEPHROID_VALIDATION=1",
                                  "XDG_CONFIG_HOME=" + (folder_ / "config").string()},
         folder_ / "", folder_ / "log");
   }
 
-  // Commands of xdotool.
+  // What a shell is told so that xdotool does it; its answers go into a file.
+  std::string xdotool(const std::string& commands) const {
+    return "DISPLAY=" + display_ + " xdotool " + commands + " >'" + (folder_ / "answer").string() + "' 2>&1";
+  }
   void type(const std::string& commands) const {
-    const std::string command =
-        display_ + " xdotool " + commands + " >'" + (folder_ / "answer").string() + "' 2>&1";
-    ASSERT_EQ(std::system(command.c_str()), 0) << commands << readAll(folder_ / "answer");
+    ASSERT_EQ(std::system(xdotool(commands).c_str()), 0) << commands << readAll(folder_ / "answer");
   }
   bool isTitled(const std::string& title) const {
-    const std::string command = display_ + " xdotool search --name '" + title + "' >'" +
-                                (folder_ / "answer").string() + "' 2>/dev/null";
-    return std::system(command.c_str()) == 0;
+    return std::system(xdotool("search --name '" + title + "'").c_str()) == 0;
   }
   ::testing::AssertionResult becomes(const std::string& title, Process& process) const {
     if (waitUntil([&] { return !process.isRunning() || isTitled(title); }) && process.isRunning())
@@ -212,9 +121,6 @@ class ViewWindow : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  inline static std::string display_;
-  inline static std::unique_ptr<Process> server_;
-  inline static std::unique_ptr<TemporaryFolder> shared_;
 };
 
 std::string numbered(int number) {
@@ -228,12 +134,7 @@ std::string at(vec2 pixel) {
 }
 
 uint32_t largestDifference(const fs::path& a, const fs::path& b) {
-  const ByteImage one = readPng(a), other = readPng(b);
-  if (one.width != other.width || one.height != other.height) return 1000;
-  uint32_t largest = 0;
-  for (std::size_t i = 0; i < one.bytes.size(); ++i)
-    largest = std::max(largest, uint32_t(std::abs(int(one.bytes[i]) - int(other.bytes[i]))));
-  return largest;
+  return largestDifference(readPng(a), readPng(b));
 }
 
 // The light is dragged, the scene saved, and what each technique shows is what `nephroid render` makes of the
@@ -328,13 +229,13 @@ TEST_F(ViewWindow, FramesLeaveNothingBehind) {
   std::vector<std::size_t> resident;
   const std::vector<std::string> sizes{"520 140", "470 100", "600 160", "490 120"};
   for (std::size_t i = 0; process->isRunning(); ++i) {
-    const std::string size = sizes[i % sizes.size()];
+    const std::string& size = sizes[i % sizes.size()];
     const std::string commands =
         "mousemove 400 60 mousedown 1 mousemove_relative 15 5 mousemove_relative 9 -6 mouseup 1 "
         "search --name '^scene.toml' windowsize " +
         size + (i % 3 == 2 ? " windowunmap windowmap" : "") + " key 1 key 7 key t";
     // It may end meanwhile.
-    if (std::system((display_ + " xdotool " + commands + " >/dev/null 2>&1").c_str()) == -1) break;
+    if (std::system(xdotool(commands).c_str()) == -1) break;
     resident.push_back(process->resident());
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

@@ -293,7 +293,9 @@ TEST(Preferences, AreKeptAndForgivenWhenTheyCannotBeRead) {
 }
 
 // A spot that swings and dims, and waves.
-constexpr const char* kMoving = R"([[light]]
+constexpr const char* kMoving = R"([camera]
+position = [0, 1, 3]
+[[light]]
 type = "spot"
 position = [0, 3, 0]
 target = [0, 0, 0.5]
@@ -313,10 +315,13 @@ waves = [{ amplitude = 0.1, wavelength = 1, speed = 0.3 }]
 TEST(SceneTimes, MoveWhatMovesByItselfAsLoadingThenWould) {
   Scene scene = readTomlScene(kMoving, "scene.toml", 0);
   SceneState asLoaded = stateOf(scene);
-  moveTo(scene, asLoaded, kMoving, 1);
+  History history(asLoaded);
+  moveTo(scene, asLoaded, history, kMoving, 1);
   const Scene then = readTomlScene(kMoving, "scene.toml", 1);
   EXPECT_EQ(stateOf(scene), stateOf(then));
   EXPECT_EQ(asLoaded, stateOf(then));
+  EXPECT_EQ(history.now(), stateOf(then));
+  EXPECT_TRUE(history.isSaved());
   EXPECT_EQ(scene.meshes[0].positions, then.meshes[0].positions);
 }
 
@@ -326,10 +331,50 @@ TEST(SceneTimes, LeaveWhatHandsChanged) {
   scene.lights[0].direction = {1, 0, 0};
   scene.lights[0].position = {5, 5, 5};
   scene.lights[0].intensity *= 2;
-  moveTo(scene, asLoaded, kMoving, 2);
+  History history(asLoaded);
+  history.add(stateOf(scene));
+  moveTo(scene, asLoaded, history, kMoving, 2);
   EXPECT_EQ(scene.lights[0].direction, vec3(1, 0, 0));
   EXPECT_EQ(scene.lights[0].position, vec3(5, 5, 5));
   EXPECT_NEAR(scene.lights[0].intensity.x, 10, 1e-4f);
+  EXPECT_EQ(history.now(), stateOf(scene));
+  EXPECT_FALSE(history.isSaved());
+  EXPECT_EQ(history.undo(), asLoaded);
+  EXPECT_TRUE(history.isSaved());
+}
+
+// What is looked at from elsewhere can be undone, and is no change that has to be saved; brightness is.
+TEST(Histories, TakeTheCameraBack) {
+  Scene scene = ballScene();
+  History history(stateOf(scene));
+  orbit(scene.camera, {0.5f, 0.1f});
+  history.add(stateOf(scene));
+  EXPECT_TRUE(history.isSaved());
+  scene.camera.exposure *= 2;
+  history.add(stateOf(scene));
+  EXPECT_FALSE(history.isSaved());
+  history.undo();
+  apply(history.undo(), scene);
+  EXPECT_EQ(scene.camera, ballScene().camera);
+}
+
+TEST(Stones, FallIntoWaterAndAreTakenBack) {
+  Scene scene = readTomlScene(kMoving, "scene.toml", 0);
+  const std::vector<vec3> still = scene.meshes[0].positions;
+  History history(stateOf(scene));
+  ASSERT_TRUE(takesStones(scene.objects[0]));
+  dropStone(scene, 0, {0.1f, 0.2f});
+  history.add(stateOf(scene));
+  EXPECT_FALSE(history.isSaved());
+  SceneState asLoaded = stateOf(readTomlScene(kMoving, "scene.toml", 0));
+  moveTo(scene, asLoaded, history, kMoving, 0.5);
+  const std::vector<vec3> moved = scene.meshes[0].positions;
+  apply(history.undo(), scene);
+  EXPECT_EQ(scene.meshes[0].positions, readTomlScene(kMoving, "scene.toml", 0.5).meshes[0].positions);
+  EXPECT_NE(scene.meshes[0].positions, moved);
+  apply(history.redo(), scene);
+  EXPECT_EQ(scene.meshes[0].positions, moved);
+  EXPECT_NE(still, moved);
 }
 
 TEST(SceneLines, BeamsLeaveTheBallAndSomeLightIsLost) {

@@ -18,8 +18,8 @@ DragAlong dragAlong(const Input& input) {
 
 }  // namespace
 
-void Pointer::use(const Input& input, const RayScene* rays, uvec2 size, bool isOver, float scale,
-                  ViewerState& state) {
+std::optional<Selection> Pointer::use(const Input& input, const RayScene* rays, uvec2 size, bool isOver,
+                                      float scale, ViewerState& state) {
   Camera& camera = state.scene.camera;
   if (isOver && input.wheel != 0) zoom(camera, input.wheel);
   if (held_ == Held::nothing && isOver) take(input, rays, size, scale * kHandleReach, state);
@@ -44,8 +44,11 @@ void Pointer::use(const Input& input, const RayScene* rays, uvec2 size, bool isO
     case Held::nothing:
       break;
   }
-  if (held_ != Held::nothing && !input.isDown[static_cast<int>(button_)])
-    letGo(input, rays, size, scale * kHandleReach, state);
+  if (held_ == Held::nothing || input.isDown[static_cast<int>(button_)]) return std::nullopt;
+  held_ = Held::nothing;
+  const bool isClick = !hasMoved_ && button_ == MouseButton::left && rays;
+  if (!isClick) return std::nullopt;
+  return pick(state.scene, *rays, size, input.mouse, scale * kHandleReach);
 }
 
 void Pointer::take(const Input& input, const RayScene* rays, uvec2 size, float reach, ViewerState& state) {
@@ -105,12 +108,6 @@ void Pointer::turnThing(const Input& input, ViewerState& state) const {
   const vec3 right = normalize(cross(scene.camera.target - scene.camera.position, scene.camera.up));
   turnSelected({0, 1, 0}, angle.x);
   turnSelected(right, angle.y);
-}
-
-void Pointer::letGo(const Input& input, const RayScene* rays, uvec2 size, float reach, ViewerState& state) {
-  const bool isClick = !hasMoved_ && button_ == MouseButton::left;
-  if (isClick && rays) state.selection = pick(state.scene, *rays, size, input.mouse, reach);
-  held_ = Held::nothing;
 }
 
 }  // namespace nephroid

@@ -14,9 +14,9 @@ class Pointer {
  public:
   // `size` is the picture's, in pixels of the window, and `input.mouse` in them. `rays` are those of the
   // scene; null where there are none yet. `isOver`: the pointer is over the picture, and nothing lies over
-  // it.
-  void use(const Input& input, const RayScene* rays, uvec2 size, bool isOver, float scale,
-           ViewerState& state);
+  // it. Returns what was clicked on, when it was.
+  std::optional<Selection> use(const Input& input, const RayScene* rays, uvec2 size, bool isOver, float scale,
+                               ViewerState& state);
 
   // Something is held: what is done to it is not over.
   bool isHolding() const { return held_ != Held::nothing; }
@@ -26,7 +26,6 @@ class Pointer {
   void take(const Input& input, const RayScene* rays, uvec2 size, float reach, ViewerState& state);
   void drag(const Input& input, uvec2 size, ViewerState& state) const;
   void turnThing(const Input& input, ViewerState& state) const;
-  void letGo(const Input& input, const RayScene* rays, uvec2 size, float reach, ViewerState& state);
 
   Held held_ = Held::nothing;
   MouseButton button_ = MouseButton::left;

@@ -71,7 +71,7 @@ void Viewer::prepare(std::function<Scene()> load) {
 void Viewer::prepareWhatIsWanted() {
   if (preparation_ || !state_.isOpen) return;
   const SceneState wanted = stateOf(state_.scene);
-  if (failed_ && failed_->first == wanted && failed_->second == state_.settings) return;
+  if (failed_ && isSameScene(failed_->first, wanted) && failed_->second == state_.settings) return;
   failed_.reset();
   const Stage* stage = graphics_->stage.get();
   if (stage && stage->settings() == state_.settings &&
@@ -91,16 +91,20 @@ void Viewer::takePrepared() {
   }
   const std::unique_ptr<Preparation> done = std::move(preparation_);
   framesToGo_ = kFramesToSettle;
+  const auto ends = [&] { return std::exchange(opensScene_, false); };
   try {
     adopt(done->take());
+    ends();
+  } catch (const gpu::DeviceLost&) {
+    throw;
   } catch (const Interrupted&) {
     tell(state_, "Cancelled: the picture goes on as it was");
-    if (opensScene_ || !graphics_->stage) return;
+    if (ends() || !graphics_->stage) return;
     state_.settings = graphics_->stage->settings();
     state_.scene.materials = graphics_->stage->scene().materials;
   } catch (const std::exception& wrong) {
     tell(state_, wrong.what(), true);
-    if (!opensScene_) failed_ = {stateOf(state_.scene), state_.settings};
+    if (!ends()) failed_ = {stateOf(state_.scene), state_.settings};
   }
 }
 
@@ -113,14 +117,13 @@ void Viewer::adopt(std::unique_ptr<Prepared> prepared) {
   prepareMilliseconds_ = millisecondsSince(preparationStart_);
   if (!opensScene_) return;
   const Camera before = state_.scene.camera;
-  const bool keepsCamera = std::exchange(keepsCamera_, false) && scene.camera == state_.firstCamera;
+  const bool keepsCamera = std::exchange(keepsCamera_, false) && scene.camera == state_.firstState.camera;
   state_.scene = std::move(scene);
   state_.file = opening_;
   text_ = openingText_;
   state_.isOpen = true;
   state_.selection = {};
   state_.firstState = stateOf(state_.scene);
-  state_.firstCamera = state_.scene.camera;
   state_.history = History(state_.firstState);
   if (keepsCamera) state_.scene.camera = before;
 }
@@ -144,6 +147,7 @@ void Viewer::moveByKeys(double seconds) {
   fly(camera, step * 0.7f * distance(camera.position, camera.target) * way);
   if (around != vec2(0)) orbit(camera, step * around);
   framesToGo_ = kFramesToSettle;
+  lastCameraStep_ = Clock::now();
 }
 
 void Viewer::usePointer(const Input& input) {
@@ -155,7 +159,16 @@ void Viewer::usePointer(const Input& input) {
   mouse_ = inPicture.mouse;
   const RayScene* rays = graphics_->stage ? &graphics_->stage->rayScene() : nullptr;
   const bool isOver = !graphics_->gui().wantsMouse() && inPicture.mouse.x >= 0;
-  pointer_.use(inPicture, rays, glm::max(uvec2(area.size), uvec2(1)), isOver, scale, state_);
+  if (isOver && input.wheel != 0) lastCameraStep_ = Clock::now();
+  if (std::ranges::count(input.wentDown, true) > 0) keepHistory();
+  const auto clicked =
+      pointer_.use(inPicture, rays, glm::max(uvec2(area.size), uvec2(1)), isOver, scale, state_);
+  if (!clicked) return;
+  const bool isWater = clicked->what == Chosen::object && takesStones(state_.scene.objects[clicked->index]);
+  if (isWater)
+    dropStone();
+  else
+    state_.selection = *clicked;
 }
 
 void Viewer::receive(const Input& input) {
@@ -183,6 +196,24 @@ void Viewer::keepHistory() {
     state_.history.add(stateOf(state_.scene));
 }
 
+// What the wheel and held keys do one after another is one step too.
+void Viewer::keepHistoryAtRest() {
+  constexpr double kRest = 0.4;  // s
+  if (millisecondsSince(lastCameraStep_) > 1000 * kRest) keepHistory();
+}
+
+void Viewer::undo() {
+  if (!state_.isOpen || pointer_.isHolding()) return;
+  keepHistory();
+  apply(state_.history.undo(), state_.scene);
+}
+
+void Viewer::redo() {
+  if (!state_.isOpen || pointer_.isHolding()) return;
+  keepHistory();
+  apply(state_.history.redo(), state_.scene);
+}
+
 uvec2 Viewer::pictureSize() const {
   const Area area = pictureArea(state_, vec2(window_.framebufferSize()), graphics_->gui().scale());
   return glm::max(uvec2(area.size) / state_.divisor, uvec2(16));
@@ -191,8 +222,8 @@ uvec2 Viewer::pictureSize() const {
 bool Viewer::drawPicture() {
   if (!graphics_->stage || !state_.isOpen) return false;
   Stage& stage = *graphics_->stage;
-  const Drawn wanted{stateOf(state_.scene), state_.scene.camera,    state_.scene.time,
-                     pictureSize(),         stage.settings().paths, stageCount_};
+  const Drawn wanted{stateOf(state_.scene), state_.scene.time, pictureSize(), stage.settings().paths,
+                     stageCount_};
   if (wanted == drawn_ && options_.frames == 0) return false;
   if (wanted.size != stage.size()) stage.resize(wanted.size);
   const Clock::time_point start = Clock::now();
@@ -234,7 +265,7 @@ void Viewer::showFrame() {
   const Clock::time_point start = Clock::now();
   graphics_->gui().begin();
   layOut();
-  keepHistory();
+  keepHistoryAtRest();
   showTitle();
   const bool isNew = drawPicture();
   refineReference();
@@ -250,13 +281,24 @@ void Viewer::showFrame() {
 
 // The device was lost, or there was not enough memory: all on it is made anew. The scene as it was changed is
 // the host's, and stays.
-void Viewer::recover(const std::string& why) {
-  preparation_.reset();
+void Viewer::recover(const std::string& why, bool isLost) {
+  constexpr double kRareLoss = 10;  // s between two of them
   graphics_.reset();
-  graphics_ = std::make_unique<Graphics>(window_, options_);
   drawn_ = {};
   uploaded_.reset();
   linesOf_.reset();
+  state_.outputs.clear();
+  try {
+    graphics_ = std::make_unique<Graphics>(window_, options_);
+  } catch (const std::exception& none) {
+    throw RuntimeFailure(why + "; " + none.what() + rescued());
+  }
+  const bool isRare = millisecondsSince(std::exchange(lastLoss_, Clock::now())) > 1000 * kRareLoss;
+  if (isLost && isRare) {
+    tell(state_, why + ". All on it was made anew; nothing of the scene is lost", true);
+    if (opensScene_ && !preparation_) prepareOpening();
+    return;
+  }
   // What failed is not tried again until something is changed.
   if (state_.isOpen) failed_ = {stateOf(state_.scene), state_.settings};
   tell(state_, why, true);
@@ -279,28 +321,32 @@ void Viewer::writeStatsOfFrames() const {
   writeFileAtomically(options_.stats, statsJson(stats));
 }
 
-void Viewer::run() {
-  if (!options_.scene.empty()) openNow(options_.scene);
-  while (true) {
-    throwIfInterrupted();
-    framesToGo_ = std::max(framesToGo_ - 1, 0);
+bool Viewer::step() {
+  throwIfInterrupted();
+  framesToGo_ = std::max(framesToGo_ - 1, 0);
+  try {
     receive(window_.poll(waitSeconds()));
     answerQuestion();
-    if (window_.isClosing()) break;
+    if (window_.isClosing()) return false;
     watchFile();
     finishTasks();
     takePrepared();
     prepareWhatIsWanted();
-    try {
-      showFrame();
-    } catch (const RuntimeFailure& failure) {
-      recover(failure.what());
-    } catch (const std::bad_alloc&) {
-      recover("There was not enough memory for this; try fewer vertices, directions or texels");
-    }
-    if (options_.frames > 0 && frameMilliseconds_.size() >= options_.frames) break;
-    if (options_.frames > 0 && !graphics_->stage && !preparation_) throw InputError(state_.message.text);
+    showFrame();
+  } catch (const gpu::DeviceLost& lost) {
+    recover(lost.what(), true);
+  } catch (const RuntimeFailure& failure) {
+    recover(failure.what(), false);
+  } catch (const std::bad_alloc&) {
+    recover("There was not enough memory for this; try fewer vertices, directions or texels", false);
   }
+  if (options_.frames > 0 && !graphics_->stage && !preparation_) throw InputError(state_.message.text);
+  return options_.frames == 0 || frameMilliseconds_.size() < options_.frames;
+}
+
+void Viewer::run() {
+  if (!options_.scene.empty()) openNow(options_.scene);
+  while (step()) continue;
   keepPreferences();
   writeStatsOfFrames();
 }

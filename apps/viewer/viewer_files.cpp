@@ -85,16 +85,21 @@ std::string freeObjectName(const Scene& scene, const std::string& stem) {
 }  // namespace
 
 void Viewer::openNow(const fs::path& file) {
-  opensScene_ = true;
-  opening_ = fs::absolute(file);
   fileTime_ = timeOf(file);
-  openingText_.clear();
+  std::string text;
   try {
-    if (isToml(file)) openingText_ = readSceneFile(file);
+    if (isToml(file)) text = readSceneFile(file);
   } catch (const InputError& wrong) {
     return tell(state_, wrong.what(), true);
   }
+  opensScene_ = true;
+  opening_ = fs::absolute(file);
+  openingText_ = text;
   isTextSaved_ = true;
+  prepareOpening();
+}
+
+void Viewer::prepareOpening() {
   prepare([file = opening_, text = openingText_, time = options_.time] {
     return isToml(file) ? readTomlScene(text, file, time) : loadScene(file, time);
   });
@@ -155,27 +160,45 @@ void Viewer::watchFile() {
 Scene Viewer::sceneAsLoaded() const {
   Scene scene = state_.scene;
   apply(state_.firstState, scene);
-  scene.camera = state_.firstCamera;
   return scene;
 }
 
 // A glTF file stays as it is: what was changed goes into a scene around it.
+fs::path Viewer::fileToSave() const {
+  fs::path file = state_.file;
+  return isToml(file) ? file : file.replace_extension(".toml");
+}
+
+SavedScene Viewer::sceneToSave() const {
+  return savedScene(isToml(state_.file) ? text_ : sceneAround(state_.file), sceneAsLoaded(), state_.scene);
+}
+
+// Where there is no window any more: what is not saved is written beside its file. To be added to a message.
+std::string Viewer::rescued() const {
+  if (isSaved()) return {};
+  try {
+    fs::path file = fileToSave();
+    file.replace_filename(file.stem().string() + "-unsaved.toml");
+    writeFileAtomically(file, sceneToSave().text);
+    return "; what was not saved is in " + file.string();
+  } catch (const std::exception& wrong) {
+    return std::string("; what was not saved is lost: ") + wrong.what();
+  }
+}
+
 bool Viewer::save() {
   if (!state_.isOpen) return false;
+  keepHistory();
   try {
     const bool isAround = !isToml(state_.file);
-    fs::path file = state_.file;
-    if (isAround) file.replace_extension(".toml");
+    const fs::path file = fileToSave();
     if (isAround && fs::exists(file))
       throw InputError("'" + file.string() + "' is there already, and would be written over; move it away");
-    const SavedScene saved =
-        savedScene(isAround ? sceneAround(state_.file) : text_, sceneAsLoaded(), state_.scene);
+    const SavedScene saved = sceneToSave();
     writeFileAtomically(file, saved.text);
     std::string said = "Saved " + file.string();
     for (const std::string& name : saved.notSaved)
-      said += (&name == &saved.notSaved.front() ? "; what was changed of these is imported, and was not: "
-                                                : ", ") +
-              name;
+      said += (&name == &saved.notSaved.front() ? "; what was changed of these cannot be: " : ", ") + name;
     tell(state_, said, !saved.notSaved.empty());
     fileTime_ = timeOf(file);
     isTextSaved_ = true;
@@ -185,7 +208,6 @@ bool Viewer::save() {
     }
     text_ = saved.text;
     state_.firstState = stateOf(state_.scene);
-    state_.firstCamera = state_.scene.camera;
     state_.history.markSaved();
     return true;
   } catch (const std::exception& wrong) {
@@ -223,7 +245,7 @@ void Viewer::addMesh(const fs::path& file) {
     openingText_ = text;
     isTextSaved_ = false;
     fileTime_ = timeOf(scene);
-    prepare([scene, text, time = options_.time] { return readTomlScene(text, scene, time); });
+    prepareOpening();
   } catch (const std::exception& wrong) {
     tell(state_, wrong.what(), true);
   }

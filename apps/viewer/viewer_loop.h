@@ -12,6 +12,7 @@
 #include "graphics.h"
 #include "key_bindings.h"
 #include "pointer.h"
+#include "scene/save_scene.h"
 #include "viewer.h"
 #include "viewer/preferences.h"
 #include "viewer/preparation.h"
@@ -24,15 +25,23 @@ namespace nephroid {
 class Viewer {
  public:
   explicit Viewer(const ViewerOptions& options);
+  // With the scene of the options, until the window is closed.
   void run();
+  // One frame of that; false when it was the last.
+  bool step();
 
   ViewerState& state() { return state_; }
+  DesktopWindow& window() { return window_; }
+  gpu::Device& device() { return graphics_->device(); }
+  ByteImage picture() { return graphics_->stage->renderer().picture(); }  // where there is one
 
   // viewer_files.cpp
   void open(const std::filesystem::path& file);  // asks before changes are lost
   void reload();
   bool save();
   bool isSaved() const;
+  void undo();
+  void redo();
   void takePicture(const char* extension);
   void recordVideo();  // or end it
   void close();        // asks before changes are lost
@@ -55,23 +64,28 @@ class Viewer {
   void moveByKeys(double seconds);
   void usePointer(const Input& input);
   void keepHistory();
+  void keepHistoryAtRest();
   uvec2 pictureSize() const;
   bool drawPicture();  // whether there was anything new to draw
   void layOut();
   void showTitle();
   void showFrame();
-  void recover(const std::string& why);
+  void recover(const std::string& why, bool isLost);
+  std::string rescued() const;
   void writeStatsOfFrames() const;
   // viewer_keys.cpp
   void press(const KeyPress& key);
   // viewer_files.cpp
   void openNow(const std::filesystem::path& file);
+  void prepareOpening();
   void drop(const std::filesystem::path& file);
   void addMesh(const std::filesystem::path& file);
   void watchFile();
   void answerQuestion();
   void finishTasks();
   void addToVideo();
+  std::filesystem::path fileToSave() const;
+  SavedScene sceneToSave() const;
   Scene sceneAsLoaded() const;
   // viewer_views.cpp
   void refineReference();
@@ -85,7 +99,6 @@ class Viewer {
   // What the picture on the screen was made of.
   struct Drawn {
     SceneState state;
-    Camera camera;
     double time = 0;
     uvec2 size{0};
     Paths paths = Paths::transmission;
@@ -105,11 +118,12 @@ class Viewer {
   vec2 mouse_{0};  // in the picture, pixels of the window
 
   std::unique_ptr<Preparation> preparation_;
-  bool opensScene_ = false;  // what is prepared is another scene, not this one with other settings
+  bool opensScene_ = false;  // what is to be shown is another scene, not this one with other settings
   std::filesystem::path opening_;
   std::string openingText_;
   bool keepsCamera_ = false;                                        // of the scene that is opened
   std::optional<std::pair<SceneState, TechniqueSettings>> failed_;  // what could not be prepared
+  Clock::time_point lastLoss_{};                                    // of the device
   Clock::time_point preparationStart_;
   double prepareMilliseconds_ = 0;
 
@@ -132,7 +146,8 @@ class Viewer {
   uint32_t stageCount_ = 0;
   Drawn drawn_;
   bool isFlightHeld_ = false;
-  int framesToGo_ = 0;  // until the window is at rest
+  Clock::time_point lastCameraStep_{};  // by the wheel or a key
+  int framesToGo_ = 0;                  // until the window is at rest
   Clock::time_point lastFrame_ = Clock::now();
   Clock::time_point lastChange_ = Clock::now();
   std::vector<double> frameMilliseconds_;

@@ -47,7 +47,6 @@ struct ViewerState {
   TechniqueSettings settings;  // as they are wanted
   History history;
   SceneState firstState;  // as the file has it
-  Camera firstCamera;     // the same
   Selection selection;
 
   Shown shown = Shown::picture;

@@ -10,9 +10,7 @@ namespace nephroid {
 void Viewer::setTime(double seconds) {
   if (!state_.isOpen || state_.scene.time == seconds) return;
   try {
-    keepHistory();
-    moveTo(state_.scene, state_.firstState, text_, std::max(seconds, 0.0));
-    state_.history.replace(stateOf(state_.scene));
+    moveTo(state_.scene, state_.firstState, state_.history, text_, std::max(seconds, 0.0));
   } catch (const std::exception& wrong) {
     state_.isPlaying = false;
     return tell(state_, wrong.what(), true);
@@ -20,21 +18,19 @@ void Viewer::setTime(double seconds) {
   framesToGo_ = std::max(framesToGo_, 1);
 }
 
-// Into water that moves by a grid of its own: what it does then is simulated from here on.
+// Into water that moves on a grid of its own: what it does then is simulated from here on.
 void Viewer::dropStone() {
   if (!state_.isOpen || !graphics_->stage) return;
   const Area area = pictureArea(state_, vec2(window_.framebufferSize()), graphics_->gui().scale());
   Hit hit;
   const Ray ray = rayThrough(state_.scene.camera, glm::max(uvec2(area.size), uvec2(1)), mouse_);
   if (!graphics_->stage->rayScene().intersect(ray, hit)) return;
-  Object& object = state_.scene.objects[hit.object];
-  if (!object.water || object.water->grid.x == 0)
-    return tell(state_, "There is no water for a stone to fall into there");
+  const Object& object = state_.scene.objects[hit.object];
+  if (!takesStones(object))
+    return tell(state_, object.water ? "No stone falls into this water: its surface is read from files"
+                                     : "There is no water for a stone to fall into there");
   const vec3 place = object.placement.inversePoint(hit.position);
-  const float across = std::min(object.water->size.x, object.water->size.y);
-  if (!object.water->simulation) object.water->simulation.emplace();
-  object.water->simulation->drops.push_back(
-      {static_cast<float>(state_.scene.time), {place.x, place.z}, 0.025f * across, 0.01f * across});
+  nephroid::dropStone(state_.scene, hit.object, {place.x, place.z});
   state_.isPlaying = true;
 }
 

@@ -148,11 +148,13 @@ Allocation MemoryPool::allocate(const VkMemoryRequirements& requirements, Memory
     offset = holder->take(size, alignment);
   }
   usedBytes_ += size;
+  ++allocationCount_;
   return {holder, holder->memory, *offset, size, holder->mapped ? holder->mapped + *offset : nullptr};
 }
 
 void MemoryPool::release(const Allocation& allocation) {
   usedBytes_ -= allocation.size;
+  --allocationCount_;
   allocation.block->giveBack(allocation.offset, allocation.size);
   if (allocation.block->free.begin()->second != allocation.block->size) return;
   const auto empty = std::ranges::find(blocks_, allocation.block, &std::unique_ptr<MemoryBlock>::get);

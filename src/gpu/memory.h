@@ -38,6 +38,7 @@ class MemoryPool {
   Allocation allocate(const VkMemoryRequirements& requirements, MemoryKind kind, const std::string& name);
   void release(const Allocation& allocation);
   uint64_t usedBytes() const { return usedBytes_; }
+  uint64_t allocationCount() const { return allocationCount_; }  // that were not given back
 
  private:
   uint32_t memoryType(uint32_t allowedTypes, MemoryKind kind) const;
@@ -48,6 +49,7 @@ class MemoryPool {
   VkPhysicalDeviceMemoryProperties properties_{};
   VkDeviceSize granularity_ = 1;
   uint64_t usedBytes_ = 0;
+  uint64_t allocationCount_ = 0;
   std::vector<std::unique_ptr<MemoryBlock>> blocks_;
 };
 

@@ -1,7 +1,5 @@
 #include "gpu/vulkan.h"
 
-#include "core/error.h"
-
 namespace nephroid::gpu {
 namespace {
 
@@ -29,8 +27,11 @@ const char* describe(VkResult result) {
 void check(VkResult result, const std::string& what) {
   if (result == VK_SUCCESS) return;
   const char* reason = describe(result);
-  throw RuntimeFailure("Vulkan: " + what + ": " +
-                       (reason ? std::string(reason) : "error " + std::to_string(static_cast<int>(result))));
+  const std::string message =
+      "Vulkan: " + what + ": " +
+      (reason ? std::string(reason) : "error " + std::to_string(static_cast<int>(result)));
+  if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(message);
+  throw RuntimeFailure(message);
 }
 
 }  // namespace nephroid::gpu

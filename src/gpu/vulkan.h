@@ -5,9 +5,17 @@
 
 #include <string>
 
+#include "core/error.h"
+
 namespace nephroid::gpu {
 
-// Throws RuntimeFailure naming `what` was being done unless `result` says success.
+// The device is gone, and with it all that is on it: another has to be made.
+struct DeviceLost : RuntimeFailure {
+  using RuntimeFailure::RuntimeFailure;
+};
+
+// Throws RuntimeFailure (DeviceLost where it is that) naming `what` was being done unless `result` says
+// success.
 void check(VkResult result, const std::string& what);
 
 // A Vulkan struct, zero but for its type.

@@ -7,6 +7,7 @@
 #include "scene/mesh_checks.h"
 #include "scene/toml_table.h"
 #include "scene/toml_text.h"
+#include "scene/wave_simulation.h"
 
 namespace nephroid {
 namespace {
@@ -81,6 +82,40 @@ void savePlacement(const Scene& scene, const Object& before, const Object& after
     text.set(table, "fit", tomlNumber(placement.scale * std::max({size.x, size.y, size.z})));
   else
     text.set(table, "scale", tomlNumber(placement.scale));
+}
+
+TomlEntries entriesOf(const WaterDrop& drop) {
+  return {{"time", tomlNumber(drop.time)},
+          {"position", "[" + tomlNumber(drop.position.x) + ", " + tomlNumber(drop.position.y) + "]"},
+          {"radius", tomlNumber(drop.radius)},
+          {"depth", tomlNumber(drop.depth)}};
+}
+
+// False where drops that the file has would have to go and stand each under a heading of its own.
+bool saveDrops(const Object& before, const Object& after, const toml::table& table, TomlText& text) {
+  if (!after.water || !after.water->simulation) return true;
+  const std::vector<WaterDrop>& drops = after.water->simulation->drops;
+  const std::vector<WaterDrop> there =
+      before.water->simulation ? before.water->simulation->drops : std::vector<WaterDrop>{};
+  if (there == drops) return true;
+  const toml::table* simulation = table.get_as<toml::table>("simulation");
+  const toml::array* list = simulation ? simulation->get_as<toml::array>("drops") : nullptr;
+  if (list && !there.empty() && there.size() < drops.size() &&
+      std::equal(there.begin(), there.end(), drops.begin())) {
+    for (std::size_t i = there.size(); i < drops.size(); ++i)
+      text.prepend(*simulation, "drops", entriesOf(drops[i]));
+    return true;
+  }
+  const bool hasHeadings = list && !there.empty() && !list->front().as_table()->is_inline();
+  if (hasHeadings) return false;
+  std::string all;
+  for (const WaterDrop& drop : drops) all += (all.empty() ? "" : ", ") + tomlInlineTable(entriesOf(drop));
+  all = "[" + all + "]";
+  if (simulation)
+    text.set(*simulation, "drops", all);
+  else
+    text.set(table, "simulation", "{ drops = " + all + " }");
+  return true;
 }
 
 // A cue's key no longer says anything else than `value`.
@@ -161,6 +196,8 @@ void saveObjects(const Scene& before, const Scene& after, TomlText& text,
     if (!table->contains("import")) {
       if (next >= before.objects.size()) return;
       savePlacement(after, before.objects[next], after.objects[next], *table, text);
+      if (!saveDrops(before.objects[next], after.objects[next], *table, text))
+        notSaved.push_back("the drops into " + before.objects[next].name);
       ++next;
       continue;
     }

@@ -45,6 +45,13 @@ std::string tomlColor(vec3 value) {
   return value.x == value.y && value.y == value.z ? tomlNumber(value.x) : tomlVector(value);
 }
 
+std::string tomlInlineTable(const TomlEntries& entries) {
+  std::string text = "{";
+  for (const auto& [key, value] : entries)
+    text.append(text.size() == 1 ? " " : ", ").append(key).append(" = ").append(value);
+  return text + " }";
+}
+
 TomlText::TomlText(std::string text, const std::string& name)
     : text_(std::move(text)), name_(name), root_(parseToml(text_, name)) {
   lineStarts_.push_back(0);
@@ -81,10 +88,9 @@ void TomlText::set(const toml::table& table, const std::string& key, const std::
   }
   const std::size_t begin = offsetOf(table.source().begin);
   if (begin < text_.size() && text_[begin] == '{') {
-    changes_.push_back({begin + 1, begin + 1, " " + key + " = " + value + ","});
+    insert(begin + 1, " " + key + " = " + value + (table.empty() ? "" : ","));
   } else if (begin < text_.size() && text_[begin] == '[') {
-    const std::size_t end = std::min(text_.find('\n', begin), text_.size());
-    changes_.push_back({end, end, "\n" + key + " = " + value});
+    insert(std::min(text_.find('\n', begin), text_.size()), "\n" + key + " = " + value);
   } else {
     throw InputError(name_ + ":" + std::to_string(table.source().begin.line) + ": \"" + key +
                      "\" cannot be added to a table that is written so; write it [...] or [[...]]");
@@ -103,6 +109,20 @@ void TomlText::replace(const toml::table& table, const std::string& key, const s
   const toml::key* old = keyNamed(table, key);
   changes_.push_back(
       {offsetOf(old->source().begin), offsetOf(table.get(key)->source().end), newKey + " = " + value});
+}
+
+void TomlText::prepend(const toml::table& table, const std::string& key, const TomlEntries& entries) {
+  const toml::array& list = *table.get_as<toml::array>(key);
+  const std::size_t first = offsetOf(list.front().source().begin);
+  const std::size_t line = text_.rfind('\n', first) + 1;
+  if (text_[first] == '{') {
+    const std::string indent = slice(line, first);
+    const bool beginsLine = indent.find_first_not_of(" \t") == std::string::npos;
+    return insert(first, tomlInlineTable(entries) + (beginsLine ? ",\n" + indent : ", "));
+  }
+  std::string text = slice(first, text_.find("]]", first) + 2);
+  for (const auto& [name, value] : entries) text += "\n" + name + " = " + value;
+  insert(first, text + "\n\n");
 }
 
 std::string TomlText::text() const {

@@ -5,11 +5,15 @@
 #include <toml++/toml.h>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/shared_language.h"
 
 namespace nephroid {
+
+// Keys and values, as TOML has them.
+using TomlEntries = std::vector<std::pair<std::string, std::string>>;
 
 class TomlText {
  public:
@@ -30,6 +34,9 @@ class TomlText {
   void replace(const toml::table& table, const std::string& key, const std::string& newKey,
                const std::string& value);
 
+  // A table before those of the list `key`, which has some: written as the first of them is.
+  void prepend(const toml::table& table, const std::string& key, const TomlEntries& entries);
+
   // With all that was set.
   std::string text() const;
 
@@ -39,6 +46,7 @@ class TomlText {
     std::string by;
   };
   std::size_t offsetOf(toml::source_position position) const;
+  void insert(std::size_t at, std::string text) { changes_.push_back({at, at, std::move(text)}); }
   std::string slice(std::size_t begin, std::size_t end) const { return text_.substr(begin, end - begin); }
 
   std::string text_;
@@ -54,5 +62,6 @@ std::string tomlString(const std::string& text);
 std::string tomlNumber(float value);
 std::string tomlVector(vec3 value);
 std::string tomlColor(vec3 value);  // one number where the channels are alike
+std::string tomlInlineTable(const TomlEntries& entries);
 
 }  // namespace nephroid

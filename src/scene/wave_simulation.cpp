@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace nephroid {
@@ -73,6 +74,15 @@ void simulateStep(WaveField& field, const WaveSimulation& simulation, double num
   advance(field);
 }
 
+// Before it, the water is still.
+double firstMotion(const WaveSimulation& simulation) {
+  double first = std::numeric_limits<double>::infinity();
+  for (const WaterDrop& drop : simulation.drops) first = std::min(first, double(drop.time));
+  for (const WaterObstacle& obstacle : simulation.obstacles)
+    first = std::min(first, double(obstacle.path.front().z));
+  return first;
+}
+
 }  // namespace
 
 double stableStep(dvec2 spacing, double speed) {
@@ -132,7 +142,7 @@ double simulationSteps(const Water& water, double time) {
 std::vector<double> simulatedHeights(const Water& water, double time) {
   WaveField field = stillField(water);
   const double steps = std::max(time, 0.0) / field.step;
-  double done = 0;
+  double done = std::floor(std::clamp(firstMotion(*water.simulation) / field.step, 0.0, steps));
   for (; done < steps; ++done) simulateStep(field, *water.simulation, done);
   // Between the last two steps.
   const double part = done - steps;

@@ -8,6 +8,10 @@
 
 namespace nephroid {
 
+inline bool operator==(const WaterDrop& a, const WaterDrop& b) {
+  return a.time == b.time && a.position == b.position && a.radius == b.radius && a.depth == b.depth;
+}
+
 struct WaveField {
   uvec2 grid{2, 2};
   glm::dvec2 spacing{1};        // m

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/shapes.h"
+
 namespace nephroid {
 namespace {
 
@@ -17,6 +19,17 @@ bool isPreparedAlike(const Material& a, const Material& b, const TechniqueSettin
   return settings.source == Source::traced || a.ior == b.ior;
 }
 
+std::vector<WaterDrop> dropsInto(const Object& object) {
+  return object.water && object.water->simulation ? object.water->simulation->drops
+                                                  : std::vector<WaterDrop>{};
+}
+
+void setDrops(Scene& scene, Object& object, std::vector<WaterDrop> drops) {
+  if (!object.water->simulation) object.water->simulation.emplace();
+  object.water->simulation->drops = std::move(drops);
+  scene.meshes[object.mesh] = makeWater(*object.water, scene.time);
+}
+
 bool isTinted(const SceneState& state) {
   return std::ranges::any_of(state.materials,
                              [](const Material& m) { return m.inverseAttenuationDistance() > 0; });
@@ -25,21 +38,50 @@ bool isTinted(const SceneState& state) {
 }  // namespace
 
 SceneState stateOf(const Scene& scene) {
-  SceneState state{scene.environment, scene.materials, {}, scene.lights, {}};
-  for (const Object& object : scene.objects) state.placements.push_back(object.placement);
+  SceneState state{scene.camera, scene.environment, scene.materials, {}, {}, scene.lights, {}};
+  for (const Object& object : scene.objects) {
+    state.placements.push_back(object.placement);
+    state.drops.push_back(dropsInto(object));
+  }
   if (scene.medium) state.air = {scene.medium->extinction, scene.medium->albedo, scene.medium->g};
   return state;
 }
 
 void apply(const SceneState& state, Scene& scene) {
+  scene.camera = state.camera;
   scene.environment = state.environment;
   scene.materials = state.materials;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) scene.objects[i].placement = state.placements[i];
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    Object& object = scene.objects[i];
+    object.placement = state.placements[i];
+    if (dropsInto(object) != state.drops[i]) setDrops(scene, object, state.drops[i]);
+  }
   scene.lights = state.lights;
   if (!scene.medium || !state.air) return;
   scene.medium->extinction = state.air->extinction;
   scene.medium->albedo = state.air->albedo;
   scene.medium->g = state.air->g;
+}
+
+bool isSameScene(const SceneState& a, const SceneState& b) {
+  SceneState other = b;
+  other.camera.position = a.camera.position;
+  other.camera.target = a.camera.target;
+  other.camera.up = a.camera.up;
+  return a == other;
+}
+
+bool takesStones(const Object& object) {
+  return object.water && object.water->grid.x > 0;
+}
+
+void dropStone(Scene& scene, uint32_t object, vec2 place) {
+  constexpr float kRadius = 0.025f, kDepth = 0.01f;  // of the water's shorter side
+  Object& water = scene.objects[object];
+  const float across = std::min(water.water->size.x, water.water->size.y);
+  std::vector<WaterDrop> drops = dropsInto(water);
+  drops.push_back({static_cast<float>(scene.time), place, kRadius * across, kDepth * across});
+  setDrops(scene, water, std::move(drops));
 }
 
 bool needsPreparation(const SceneState& before, const SceneState& after, const TechniqueSettings& settings) {
@@ -51,10 +93,9 @@ bool needsPreparation(const SceneState& before, const SceneState& after, const T
   return isTinted(after) && !std::ranges::equal(before.placements, after.placements, isAsLarge);
 }
 
-void History::replace(const SceneState& state) {
-  const bool wasSaved = isSaved();
-  states_[now_] = state;
-  if (wasSaved) markSaved();
+void History::changeAll(const std::function<void(SceneState&)>& change) {
+  for (SceneState& state : states_) change(state);
+  change(saved_);
 }
 
 void History::add(const SceneState& state) {

@@ -18,53 +18,62 @@ bool hasCue(const toml::table& light) {
 
 // What was not changed by hand goes on.
 template <class Value>
-void follow(Value& value, Value& asLoaded, const Value& next) {
-  if (value == asLoaded) value = next;
-  asLoaded = next;
+void follow(Value& value, const Value& was, const Value& is) {
+  if (value == was) value = is;
 }
 
 // A strength that was changed stays as many times as bright, as a file that it is saved in has it.
-void followStrength(vec3& value, vec3& asLoaded, vec3 next) {
-  for (int c = 0; c < 3; ++c)
-    value[c] = asLoaded[c] > 0 ? value[c] / asLoaded[c] * next[c] : value[c] + next[c];
-  asLoaded = next;
+void followStrength(vec3& value, vec3 was, vec3 is) {
+  for (int c = 0; c < 3; ++c) value[c] = was[c] > 0 ? value[c] / was[c] * is[c] : value[c] + is[c];
 }
 
-void follow(Light& light, Light& asLoaded, const Light& next) {
-  follow(light.direction, asLoaded.direction, next.direction);
-  follow(light.innerAngle, asLoaded.innerAngle, next.innerAngle);
-  follow(light.outerAngle, asLoaded.outerAngle, next.outerAngle);
-  follow(light.goboRotation, asLoaded.goboRotation, next.goboRotation);
-  followStrength(light.intensity, asLoaded.intensity, next.intensity);
-  followStrength(light.illuminance, asLoaded.illuminance, next.illuminance);
+// The file has the light as it `was`, and then as it `is`.
+void follow(Light& light, const Light& was, const Light& is) {
+  follow(light.direction, was.direction, is.direction);
+  follow(light.innerAngle, was.innerAngle, is.innerAngle);
+  follow(light.outerAngle, was.outerAngle, is.outerAngle);
+  follow(light.goboRotation, was.goboRotation, is.goboRotation);
+  followStrength(light.intensity, was.intensity, is.intensity);
+  followStrength(light.illuminance, was.illuminance, is.illuminance);
 }
 
-// Lights of the file are the last of the scene's, after those that were imported.
-void moveLights(Scene& scene, SceneState& asLoaded, const std::string& text) {
+// Those that the file has at the scene's time, where any has a cue.
+std::vector<Light> lightsOfFile(const Scene& scene, const std::string& text) {
   const toml::table root = parseToml(text, scene.file.string());
   const toml::array* tables = root.get_as<toml::array>("light");
   if (!tables || std::ranges::none_of(*tables, [](const toml::node& node) {
         return node.is_table() && hasCue(*node.as_table());
       }))
-    return;
-  Scene next;
-  next.file = scene.file;
-  next.time = scene.time;
-  readLights(TomlTable(root, scene.file.string(), "").tables("light"), next);
-  if (next.lights.size() > scene.lights.size()) return;
-  const std::size_t first = scene.lights.size() - next.lights.size();
-  for (std::size_t i = 0; i < next.lights.size(); ++i)
-    follow(scene.lights[first + i], asLoaded.lights[first + i], next.lights[i]);
+    return {};
+  Scene then;
+  then.file = scene.file;
+  then.time = scene.time;
+  readLights(TomlTable(root, scene.file.string(), "").tables("light"), then);
+  return then.lights;
+}
+
+void moveLights(Scene& scene, SceneState& asLoaded, History& history, const std::string& text) {
+  const std::vector<Light> next = lightsOfFile(scene, text);
+  if (next.size() > scene.lights.size()) return;
+  // Lights of the file are the last of the scene's, after those that were imported.
+  const std::size_t first = scene.lights.size() - next.size();
+  const std::vector<Light> before = asLoaded.lights;
+  const auto move = [&](std::vector<Light>& lights) {
+    for (std::size_t i = 0; i < next.size(); ++i) follow(lights[first + i], before[first + i], next[i]);
+  };
+  move(scene.lights);
+  move(asLoaded.lights);
+  history.changeAll([&](SceneState& state) { move(state.lights); });
 }
 
 }  // namespace
 
-void moveTo(Scene& scene, SceneState& asLoaded, const std::string& text, double time) {
+void moveTo(Scene& scene, SceneState& asLoaded, History& history, const std::string& text, double time) {
   scene.time = time;
-  if (!text.empty()) moveLights(scene, asLoaded, text);
-  // A sequence of meshes has no grid, and stays as it was loaded.
+  if (!text.empty()) moveLights(scene, asLoaded, history, text);
+  // A sequence of meshes stays as it was loaded.
   for (const Object& object : scene.objects)
-    if (object.water && object.water->grid.x > 0) scene.meshes[object.mesh] = makeWater(*object.water, time);
+    if (takesStones(object)) scene.meshes[object.mesh] = makeWater(*object.water, time);
 }
 
 }  // namespace nephroid
