@@ -54,13 +54,6 @@ class Process {
     isEnded_ = true;
     return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
   }
-  // Bytes in memory.
-  std::size_t resident() const {
-    std::ifstream file("/proc/" + std::to_string(id_) + "/statm");
-    std::size_t size = 0, pages = 0;
-    file >> size >> pages;
-    return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  }
 
  private:
   pid_t id_ = 0;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <regex>
+#include <span>
 
 #include "core/image_io.h"
 #include "hidden_display.h"
@@ -13,6 +15,7 @@
 #include "run_program.h"
 #include "scene/load.h"
 #include "scene/scene_toml.h"
+#include "viewer/picking.h"
 #include "viewer_loop.h"
 
 namespace nephroid {
@@ -83,6 +86,12 @@ direction = [0.2, -1, -0.15]
 illuminance = 60000
 )";
 
+// A frame that does not wait for something to happen.
+bool stepNow(Viewer& viewer) {
+  glfwPostEmptyEvent();
+  return viewer.step();
+}
+
 // What the desktop tells a window. Positions are pixels of the picture.
 class Hands {
  public:
@@ -99,21 +108,21 @@ class Hands {
   void click(vec2 pixel) { drag(pixel, pixel); }
   void drag(vec2 from, vec2 to) {
     moveTo(from);
-    viewer_.step();
+    stepNow(viewer_);
     press();
-    viewer_.step();
+    stepNow(viewer_);
     for (const float part : {0.5f, 1.0f}) {
       moveTo(mix(from, to, part));
-      viewer_.step();
+      stepNow(viewer_);
     }
     release();
-    viewer_.step();
+    stepNow(viewer_);
   }
   void scroll(double steps) { call(glfwSetScrollCallback, 0.0, steps); }
   void key(int key, int modifiers = 0) {
     call(glfwSetKeyCallback, key, 0, GLFW_PRESS, modifiers);
     call(glfwSetKeyCallback, key, 0, GLFW_RELEASE, modifiers);
-    viewer_.step();
+    stepNow(viewer_);
   }
   void drop(const fs::path& file) {
     const std::string name = file.string();
@@ -127,7 +136,6 @@ class Hands {
     const Callback callback = set(window_, nullptr);
     set(window_, callback);
     callback(window_, arguments...);
-    glfwPostEmptyEvent();
   }
 
   Viewer& viewer_;
@@ -174,7 +182,7 @@ class ViewSteps : public HiddenDisplayTest {
 
   template <class Condition>
   ::testing::AssertionResult stepUntil(const Condition& condition) {
-    if (waitUntil([&] { return viewer_->step() && condition(); }, std::chrono::milliseconds(0)))
+    if (waitUntil([&] { return stepNow(*viewer_) && condition(); }, std::chrono::milliseconds(0)))
       return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << state().message.text;
   }
@@ -215,7 +223,7 @@ TEST_F(ViewSteps, AClickOnWaterDropsAStoneThatIsSavedWithTheScene) {
   EXPECT_EQ(state().selection.what, Chosen::nothing);
   state().isPlaying = false;
   viewer().setTime(0.5);
-  viewer().step();
+  stepNow(viewer());
   const ByteImage moved = viewer().picture();
   hands().key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   EXPECT_EQ(stonesIn(state()), 0u);
@@ -239,7 +247,7 @@ TEST_F(ViewSteps, EachDragOfTheCameraIsTakenBackByItself) {
   const Camera third = state().scene.camera;
   for (int i = 0; i < 3; ++i) {
     hands().scroll(1);
-    viewer().step();
+    stepNow(viewer());
   }
   EXPECT_NE(state().scene.camera, third);
   EXPECT_TRUE(viewer().isSaved());
@@ -247,6 +255,276 @@ TEST_F(ViewSteps, EachDragOfTheCameraIsTakenBackByItself) {
     hands().key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
     EXPECT_EQ(state().scene.camera, camera);
   }
+}
+
+// Of few vertices: finer shapes take long, and show no more of the viewer. Meshes of files stay as they are.
+std::string coarse(const fs::path& scene) {
+  const std::regex ofMesh("(mesh = .*(\\n[^\\[\\n].*)*?)\\nvertices = [0-9]+");
+  const std::string text = std::regex_replace(readSceneFile(scene), ofMesh, "$1");
+  return std::regex_replace(std::regex_replace(text, std::regex("\\nvertices = [0-9]+"), "\nvertices = 600"),
+                            std::regex("\\ngrid = \\[[0-9, ]+\\]"), "\ngrid = [24, 24]");
+}
+
+// As its panel does.
+void moveFirstLight(Viewer& viewer) {
+  Scene& scene = viewer.state().scene;
+  const Handle handle = handlesOf(scene).front();
+  const float far = distance(handle.position, scene.camera.target);
+  moveHandle(scene, handle, handle.position + 0.15f * far * vec3(1, 0, 0));
+  stepNow(viewer);
+}
+
+bool isOneColor(const ByteImage& picture) {
+  const auto pixel = std::span(picture.bytes).first(picture.components);
+  for (std::size_t i = 0; i < picture.bytes.size(); i += picture.components)
+    if (!std::ranges::equal(std::span(picture.bytes).subspan(i, picture.components), pixel)) return false;
+  return true;
+}
+
+// Stands for the bunny, which takes long to follow light through.
+constexpr const char* kSmallBunny = R"(v -0.5 0 -0.5
+v 0.5 0 -0.5
+v 0 0 0.5
+v 0 0.8 0
+f 1 2 3
+f 1 4 2
+f 2 4 3
+f 3 4 1
+)";
+
+// One after another in one window; all are saved, and some are rendered from what was saved.
+TEST_F(ViewSteps, OpensEachSceneAndItsPictureFollowsTheLight) {
+  const fs::path scenes = fs::path(NEPHROID_SOURCE_DIR) / "scenes";
+  fs::copy(scenes / "polka-dots.png", folder_ / "polka-dots.png");
+  written("bunny.obj", kSmallBunny);
+  const std::vector<std::string> saved{"glass-ball.toml", "knot-spotlight.toml", "water-drops.toml",
+                                       "paper4-stage.toml"};
+  std::size_t opened = 0;
+  for (const auto& entry : fs::directory_iterator(scenes)) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string name = entry.path().filename().string();
+    SCOPED_TRACE(name);
+    const fs::path file = written(name, coarse(entry.path()));
+    ASSERT_TRUE(opens(file));
+    const ByteImage first = viewer().picture();
+    EXPECT_FALSE(isOneColor(first));
+    moveFirstLight(viewer());
+    EXPECT_GT(largestDifference(viewer().picture(), first), 0u);
+    EXPECT_FALSE(viewer().isSaved());
+    ASSERT_TRUE(viewer().save()) << state().message.text;
+    if (std::ranges::count(saved, name) > 0) {
+      EXPECT_LE(largestDifference(viewer().picture(), rendered(file)), 1u);
+    }
+    ++opened;
+  }
+  EXPECT_GT(opened, 30u);
+}
+
+TEST_F(ViewSteps, WhatIsDroppedIsOpenedOrAddedOrTheWindowSaysWhyNot) {
+  state().settings.technique = "none";
+  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  hands().drop(written("picture.jpg", ""));
+  stepNow(viewer());
+  EXPECT_NE(state().message.text.find("what can be dropped"), std::string::npos);
+  hands().drop(written("wrong.toml", "[camera\n"));
+  ASSERT_TRUE(stepUntil([&] { return state().message.text.find("wrong.toml:1") != std::string::npos; }));
+  EXPECT_EQ(state().scene.objects.size(), 2u);
+  hands().drop(
+      written("tent.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+  ASSERT_TRUE(stepUntil([&] { return state().scene.objects.size() == 3; }));
+  EXPECT_FALSE(viewer().isSaved());
+  hands().drop(written("other.toml", kBall));
+  stepNow(viewer());
+  ASSERT_TRUE(state().question);
+  state().question->answer = Question::Answer::cancel;
+  stepNow(viewer());
+  EXPECT_EQ(state().scene.objects.back().name, "tent");
+}
+
+// In the frame that takes it in.
+TEST_F(ViewSteps, WhatAHandDoesIsSeenInTheNextFrame) {
+  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  const vec2 from = *pixelOf(state().scene.camera, kSize, state().scene.lights[0].position);
+  hands().moveTo(from);
+  stepNow(viewer());
+  hands().press();
+  stepNow(viewer());
+  for (int i = 1; i <= 5; ++i) {
+    const ByteImage before = viewer().picture();
+    hands().moveTo(from - vec2(5 * i, 0));
+    int frames = 0;
+    do {
+      stepNow(viewer());
+      ++frames;
+    } while (viewer().picture().bytes == before.bytes && frames < 10);
+    EXPECT_EQ(frames, 1);
+  }
+}
+
+VkResult VKAPI_PTR loseTheDevice(VkQueue, uint32_t, const VkSubmitInfo2*, VkFence) {
+  return VK_ERROR_DEVICE_LOST;
+}
+
+TEST_F(ViewSteps, ALostDeviceIsMadeAnewAndNothingElseIsLost) {
+  const fs::path file = written("ball.toml", kBall);
+  ASSERT_TRUE(opens(file));
+  moveFirstLight(viewer());
+  const ByteImage before = viewer().picture();
+  const auto hasPicture = [&] { return !state().outputs.empty(); };
+  vkQueueSubmit2 = loseTheDevice;  // until another device is made
+  stepNow(viewer());
+  EXPECT_NE(state().message.text.find("the device was lost"), std::string::npos);
+  EXPECT_FALSE(viewer().isSaved());
+  ASSERT_TRUE(stepUntil(hasPicture));
+  EXPECT_EQ(largestDifference(viewer().picture(), before), 0u);
+
+  // Soon again: what loses it is not tried over and over.
+  vkQueueSubmit2 = loseTheDevice;
+  for (int i = 0; i < 5; ++i) stepNow(viewer());
+  EXPECT_FALSE(hasPicture());
+  EXPECT_TRUE(viewer().save());
+  EXPECT_NE(loadScene(file).lights[0].position, loadScene(written("first.toml", kBall)).lights[0].position);
+  moveFirstLight(viewer());
+  EXPECT_TRUE(stepUntil(hasPicture));
+}
+
+// A variable of the environment, as it was before when this ends.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    setenv(name, value, 1);
+  }
+  ~Variable() {
+    if (before_)
+      setenv(name_, before_->c_str(), 1);
+    else
+      unsetenv(name_);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST_F(ViewSteps, WhereNoDeviceIsLeftWhatWasNotSavedIsInAFileBesideIt) {
+  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  moveFirstLight(viewer());
+  const vec3 moved = state().scene.lights[0].position;
+  vkQueueSubmit2 = loseTheDevice;
+  try {
+    const Variable icds("VK_ICD_FILENAMES", "/nowhere.json"), drivers("VK_DRIVER_FILES", "/nowhere.json");
+    stepNow(viewer());
+    ADD_FAILURE() << "goes on without a device";
+  } catch (const RuntimeFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("ball-unsaved.toml"), std::string::npos) << failure.what();
+  }
+  viewer_.reset();
+  EXPECT_EQ(readAll(folder_ / "ball.toml"), kBall);
+  EXPECT_EQ(loadScene(folder_ / "ball-unsaved.toml").lights[0].position, moved);
+}
+
+struct Held {
+  uint64_t allocations = 0, bytes = 0;
+  bool operator==(const Held&) const = default;
+};
+
+// Bytes of this process in memory.
+std::size_t resident() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t size = 0, pages = 0;
+  file >> size >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+// As many as NEPHROID_TEST_FRAMES asks for; few where a suite has to be short.
+int frameCount() {
+  const char* wanted = std::getenv("NEPHROID_TEST_FRAMES");
+  return wanted ? std::atoi(wanted) : 120;
+}
+
+// Frames in which the light moves, the window is made larger, smaller, hidden and shown, and views are
+// switched: after each round of them the device holds what it held after the first, which grows buffers to
+// what the largest frame needs.
+TEST_F(ViewSteps, FramesLeaveNothingBehind) {
+  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  const uvec2 size = viewer().window().size();
+  const vec3 place = state().scene.lights[0].position;
+  GLFWwindow* window = viewer().window().handle();
+  constexpr int kRound = 40;
+  std::vector<Held> held;
+  std::vector<std::size_t> hosts;
+  for (int frame = 1; frame <= frameCount(); ++frame) {
+    state().scene.lights[0].position = place + vec3(0.01f * float(frame % 7), 0, 0);
+    stepNow(viewer());
+    const int inRound = frame % kRound;
+    if (inRound % 10 == 0) {
+      const uvec2 wanted = size + uvec2(uint32_t(inRound), uint32_t(inRound % 20));
+      viewer().window().resize(wanted);
+      ASSERT_TRUE(stepUntil([&] { return viewer().window().framebufferSize() == wanted; }));
+    }
+    if (inRound == 12 || inRound == 33) hands().key(GLFW_KEY_1);
+    if (inRound == 16 || inRound == 36) hands().key(GLFW_KEY_7);
+    if (inRound == 20) glfwHideWindow(window);
+    if (inRound == 23) glfwShowWindow(window);
+    if (inRound != 0) continue;
+    held.push_back({viewer().device().memory().allocationCount(), viewer().device().memoryBytes()});
+    hosts.push_back(resident());
+  }
+  ASSERT_GE(held.size(), 3u);
+  for (const Held& later : held) EXPECT_EQ(later, held[0]) << &later - held.data();
+  EXPECT_LT(double(hosts.back()), 1.1 * double(hosts[hosts.size() / 2]));
+}
+
+TEST_F(ViewSteps, GoesOnWhereItWasWhenItIsNoLongerMinimised) {
+  if (!isInstalled("twm")) GTEST_SKIP() << "there is no window manager that minimises windows (package twm)";
+  const fs::path settings =
+      written("twmrc",
+              "RandomPlacement\nTitleFont \"fixed\"\nMenuFont \"fixed\"\nIconFont \"fixed\"\n"
+              "ResizeFont \"fixed\"\nIconManagerFont \"fixed\"\n");
+  const Process manager({"twm", "-f", settings.string()}, {"DISPLAY=" + display_}, folder_.path(),
+                        folder_ / "twm");
+  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  GLFWwindow* window = viewer().window().handle();
+  // The manager may not be there yet.
+  ASSERT_TRUE(stepUntil([&] {
+    glfwIconifyWindow(window);
+    return viewer().window().framebufferSize() == uvec2(0);
+  })) << readAll(folder_ / "twm");
+  const ByteImage before = viewer().picture();
+  state().scene.lights[0].position.x -= 0.3f;
+  for (int i = 0; i < 3; ++i) stepNow(viewer());
+  EXPECT_EQ(largestDifference(viewer().picture(), before), 0u);
+  glfwRestoreWindow(window);
+  EXPECT_TRUE(stepUntil([&] { return largestDifference(viewer().picture(), before) > 0; }));
+}
+
+TEST_F(ViewSteps, RecordsWhatIsSeenAsAVideo) {
+  state().settings.technique = "none";
+  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  hands().key(GLFW_KEY_V);
+  if (!isInstalled("ffmpeg")) {
+    EXPECT_NE(state().message.text.find("install package ffmpeg"), std::string::npos) << state().message.text;
+    GTEST_SKIP() << "there is no ffmpeg";
+  }
+  constexpr int kFrames = 6;
+  for (int i = 0; i < kFrames; ++i) {
+    state().scene.lights[0].position.x -= 0.1f;
+    stepNow(viewer());
+  }
+  hands().key(GLFW_KEY_V);
+  EXPECT_TRUE(state().recording.empty());
+  const std::string answer = (folder_ / "answer").string();
+  ASSERT_EQ(
+      std::system(
+          ("ffprobe -v error -count_frames -show_entries stream=width,height,nb_read_frames -of csv=p=0 '" +
+           (folder_ / "ball-001.mp4").string() + "' >'" + answer + "' 2>&1")
+              .c_str()),
+      0);
+  EXPECT_EQ(readAll(answer),
+            std::to_string(kSize.x) + "," + std::to_string(kSize.y) + "," + std::to_string(kFrames) + "\n");
 }
 
 }  // namespace

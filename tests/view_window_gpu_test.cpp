@@ -70,9 +70,9 @@ class ViewWindow : public HiddenDisplayTest {
     std::ofstream(folder_ / "scene.toml") << kScene;
   }
 
-  std::unique_ptr<Process> view(std::vector<std::string> arguments) const {
+  std::unique_ptr<Process> view(const std::vector<std::string>& arguments, uvec2 size = kSize) const {
     std::vector<std::string> command{NEPHROID_PROGRAM, "view", (folder_ / "scene.toml").string(), "--size",
-                                     std::to_string(kSize.x) + "x" + std::to_string(kSize.y)};
+                                     std::to_string(size.x) + "x" + std::to_string(size.y)};
     command.insert(command.end(), kQuick.begin(), kQuick.end());
     command.insert(command.end(), arguments.begin(), arguments.end());
     return std::make_unique<Process>(
@@ -214,40 +214,24 @@ TEST_F(ViewWindow, GoesWithTheFileAndSaysWhatIsWrongWithIt) {
   endedWell(*process);
 }
 
-// As many as NEPHROID_TEST_FRAMES asks for; few where a suite has to be short.
-std::string frameCount() {
-  const char* wanted = std::getenv("NEPHROID_TEST_FRAMES");
-  return wanted ? wanted : "300";
-}
-
-// Frames in which the camera goes around, the window is made larger, smaller, hidden and shown,
-// and views are switched: what is allocated at the end is what was soon after the beginning.
-TEST_F(ViewWindow, FramesLeaveNothingBehind) {
-  const auto process =
-      view({"--source", "traced", "--frames", frameCount(), "--stats", (folder_ / "stats.json").string()});
-  ASSERT_TRUE(becomes("^scene.toml", *process));
-  std::vector<std::size_t> resident;
-  const std::vector<std::string> sizes{"520 140", "470 100", "600 160", "490 120"};
-  for (std::size_t i = 0; process->isRunning(); ++i) {
-    const std::string& size = sizes[i % sizes.size()];
-    const std::string commands =
-        "mousemove 400 60 mousedown 1 mousemove_relative 15 5 mousemove_relative 9 -6 mouseup 1 "
-        "search --name '^scene.toml' windowsize " +
-        size + (i % 3 == 2 ? " windowunmap windowmap" : "") + " key 1 key 7 key t";
-    // It may end meanwhile.
-    if (std::system(xdotool(commands).c_str()) == -1) break;
-    resident.push_back(process->resident());
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  const nlohmann::json stats = endedWell(*process);
-  EXPECT_EQ(std::to_string(stats["counts"]["frames"].get<int>()), frameCount());
-  ASSERT_GT(resident.size(), 8u);
-  const auto most = [&](std::size_t from, std::size_t to) {
-    return *std::max_element(resident.begin() + std::ptrdiff_t(from), resident.begin() + std::ptrdiff_t(to));
+// Of a screen on which the user wants two pixels for one: panels and letters are twice as large, and the
+// picture is of the size that was asked for.
+TEST_F(ViewWindow, IsTwiceAsLargeOnADenseScreen) {
+  if (!isInstalled("xprop")) GTEST_SKIP() << "there is no xprop (package x11-utils)";
+  const auto setDensity = [&](const std::string& dots) {
+    return std::system(("DISPLAY=" + display_ +
+                        " xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi: " + dots + "'")
+                           .c_str());
   };
-  const std::size_t half = resident.size() / 2, last = resident.size() - 1;
-  constexpr double kSlack = 1.1;  // the host's allocator, and sizes of windows that come in another order
-  EXPECT_LT(double(most(half, last)), kSlack * double(most(resident.size() / 4, half)));
+  ASSERT_EQ(setDensity("192"), 0);
+  constexpr uvec2 size{320, 60};
+  const auto process =
+      view({"--technique", "none", "--frames", "3", "--stats", (folder_ / "stats.json").string()}, size);
+  const nlohmann::json stats = endedWell(*process);
+  setDensity("96");
+  EXPECT_EQ(stats["counts"]["width"], size.x);
+  EXPECT_EQ(stats["counts"]["height"], size.y);
+  EXPECT_EQ(stats["counts"]["window_width"], size.x + 2 * uint32_t(kPanelWidth));
 }
 
 TEST(ViewCommand, SaysInOneLineThatThereIsNoDisplay) {

@@ -45,10 +45,15 @@ Viewer::Viewer(const ViewerOptions& options, const ViewerPreferences& preference
       window_("nephroid", preferences.windowSize),
       graphics_(std::make_unique<Graphics>(window_, options)),
       framesToGo_(kFramesToSettle) {
+  if (options.size.x > 0) window_.resizeFramebuffer(options.size + uvec2(uint32_t(panelWidth()), 0));
   state_.settings = options.technique;
   state_.arePanelsShown = preferences.arePanelsShown;
   state_.areTimesShown = preferences.areTimesShown;
   state_.device = graphics_->device().info().name;
+}
+
+float Viewer::panelWidth() const {
+  return kPanelWidth * graphics_->gui().scale();
 }
 
 void Viewer::keepPreferences() const {
@@ -317,6 +322,7 @@ void Viewer::writeStatsOfFrames() const {
   setCount(stats, "frames", frameMilliseconds_.size());
   setCount(stats, "width", drawn_.size.x);
   setCount(stats, "height", drawn_.size.y);
+  setCount(stats, "window_width", window_.framebufferSize().x);
   setCount(stats, "validation_messages", graphics_->device().validationMessages().size());
   writeFileAtomically(options_.stats, statsJson(stats));
 }

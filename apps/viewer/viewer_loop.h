@@ -54,6 +54,7 @@ class Viewer {
  private:
   // viewer.cpp
   Viewer(const ViewerOptions& options, const ViewerPreferences& preferences);
+  float panelWidth() const;  // pixels
   void keepPreferences() const;
   void prepare(std::function<Scene()> load);
   void prepareWhatIsWanted();

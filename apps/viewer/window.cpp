@@ -199,4 +199,10 @@ void DesktopWindow::resize(uvec2 size) {
   glfwSetWindowSize(window_, static_cast<int>(size.x), static_cast<int>(size.y));
 }
 
+void DesktopWindow::resizeFramebuffer(uvec2 pixels) {
+  if (framebufferSize() == pixels) return;
+  resize(uvec2(glm::round(vec2(pixels) / pixelsPerUnit(window_))));
+  for (int i = 0; i < 50 && framebufferSize() != pixels; ++i) glfwWaitEventsTimeout(0.02);
+}
+
 }  // namespace nephroid

@@ -37,6 +37,8 @@ class DesktopWindow {
   void setTitle(const std::string& title);
   void place(ivec2 position);
   void resize(uvec2 size);
+  // So that it is so many pixels, and waits a moment for it; the desktop may have it otherwise.
+  void resizeFramebuffer(uvec2 pixels);
   GLFWwindow* handle() const { return window_; }
 
  private:
