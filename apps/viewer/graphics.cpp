@@ -19,12 +19,18 @@ Graphics::Graphics(DesktopWindow& window, const ViewerOptions& options)
       swapchain_(device_, window.createSurface(device_.instance()),
                  options.frames > 0 ? gpu::Pace::none : gpu::Pace::screen),
       gui_(device_, window),
-      outputView_(device_) {}
+      outputView_(std::make_unique<OutputView>(device_)) {}
 
 void Graphics::show(uvec2 framebufferSize) {
   ensureImage(device_, screen_, "screen", framebufferSize);
   gui_.draw(screen_);
   swapchain_.show(screen_, framebufferSize);
+}
+
+void Graphics::remakePrograms() {
+  auto outputs = std::make_unique<OutputView>(device_);
+  if (stage) stage->remake();
+  outputView_ = std::move(outputs);
 }
 
 void Graphics::upload(const ByteImage& picture) {

@@ -19,10 +19,14 @@ class Graphics {
 
   gpu::Device& device() { return device_; }
   Gui& gui() { return gui_; }
-  OutputView& outputView() { return outputView_; }
+  OutputView& outputView() { return *outputView_; }
 
   // Draws the panels, over the pictures among them, and shows all that in the window.
   void show(uvec2 framebufferSize);
+
+  // All that is drawn of the scene, of the shaders as they are now. Throws, and it stays as it was, where
+  // they do not fit.
+  void remakePrograms();
 
   // A picture that the host made.
   void upload(const ByteImage& picture);
@@ -32,7 +36,7 @@ class Graphics {
   gpu::Device device_;
   gpu::Swapchain swapchain_;
   Gui gui_;
-  OutputView outputView_;
+  std::unique_ptr<OutputView> outputView_;
   gpu::Image screen_;
   gpu::Image uploaded_;
 

@@ -125,6 +125,8 @@ constexpr KeyBinding kBindings[] = {
     {"Ctrl Z", "Undo", GLFW_KEY_Z, true, false, [](Viewer& viewer) { viewer.undo(); }, true},
     {"Ctrl Y", "Redo", GLFW_KEY_Y, true, false, [](Viewer& viewer) { viewer.redo(); }, true},
     {"F5", "Load the scene again", GLFW_KEY_F5, false, false, [](Viewer& viewer) { viewer.reload(); }},
+    {"Shift F5", "Compile the shaders again (builds for developers)", GLFW_KEY_F5, false, true,
+     [](Viewer& viewer) { viewer.reloadShaders(); }},
     {"?, F1", "This help", GLFW_KEY_F1, false, false,
      [](Viewer& viewer) { viewer.state().isHelpShown = !viewer.state().isHelpShown; }},
     {"Ctrl Q", "Close", GLFW_KEY_Q, true, false, [](Viewer& viewer) { viewer.close(); }},

@@ -135,7 +135,8 @@ void Viewer::adopt(std::unique_ptr<Prepared> prepared) {
 
 double Viewer::waitSeconds() const {
   if (options_.frames > 0 || framesToGo_ > 0 || state_.isPlaying) return 0;
-  return preparation_ || referenceWorker_.isRunning() || !tasks_.empty() ? kBusyWait : kIdleWait;
+  const bool isBusy = preparation_ || referenceWorker_.isRunning() || !tasks_.empty() || shaders_.valid();
+  return isBusy ? kBusyWait : kIdleWait;
 }
 
 // A step is a part of the way to what is looked at, so that it suits any scene.
@@ -336,6 +337,7 @@ bool Viewer::step() {
     if (window_.isClosing()) return false;
     watchFile();
     finishTasks();
+    useShaders();
     takePrepared();
     prepareWhatIsWanted();
     showFrame();

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "gpu/reloadable_shader.h"
 #include "graphics.h"
 #include "key_bindings.h"
 #include "pointer.h"
@@ -50,6 +51,8 @@ class Viewer {
   void dropStone();  // where the pointer is
   // viewer_views.cpp
   void show(const char* pass, const char* output);
+  // viewer_shaders.cpp
+  void reloadShaders();
 
  private:
   // viewer.cpp
@@ -96,6 +99,8 @@ class Viewer {
   void drawHandles(vec2 corner, vec2 size) const;
   // viewer_time.cpp
   void play(double seconds);
+  // viewer_shaders.cpp
+  void useShaders();
 
   // What the picture on the screen was made of.
   struct Drawn {
@@ -134,6 +139,7 @@ class Viewer {
   Clock::time_point lastWatch_{};
   std::vector<std::future<std::string>> tasks_;  // each ends with what there is to say
   std::unique_ptr<VideoPipe> video_;
+  std::future<gpu::ShaderChanges> shaders_;  // being compiled
 
   ReferenceWorker referenceWorker_;
   std::optional<Drawn> referenceOf_;
