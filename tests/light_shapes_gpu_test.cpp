@@ -99,13 +99,17 @@ class LightShapes : public GpuTest {
 
   void expectAsComputed(const Scene& scene, float tolerance) {
     const ShapedLight light = shapedLight(scene, scene.lights[0]);
-    const Emitter emitter = emittersOf(scene).front();
+    const std::vector<Emitter> emitters = emittersOf(scene);
     double sum = 0;
     for (const Sample& sample : drawn(scene)) {
-      const vec3 toLight = normalize(emitter.position - sample.point);
-      const float cosine = dot(toLight, sample.normal);
-      const vec3 lux = cosine * illuminance(light, emitter, sample.point);
-      const float peak = cosine * 30 / dot(emitter.position - sample.point, emitter.position - sample.point);
+      vec3 lux(0);
+      float peak = 0;
+      for (const Emitter& emitter : emitters) {
+        const vec3 offset = emitter.position - sample.point;
+        const float cosine = dot(normalize(offset), sample.normal);
+        lux += cosine * illuminance(light, emitter, sample.point);
+        peak += cosine * emitter.power.x / dot(offset, offset);
+      }
       for (int c = 0; c < 3; ++c)
         ASSERT_NEAR(sample.lux[c], lux[c], tolerance * peak)
             << "at " << sample.point.x << ", " << sample.point.y << ", " << sample.point.z;
@@ -165,6 +169,16 @@ TEST_F(LightShapes, AGoboAndAProfileMultiply) {
   scene.textures.push_back(randomGobo(12, 12));
   scene.profiles.push_back(randomProfile(PhotometryType::c, {0, 20, 70, 90}, {0, 90, 180}));
   expectAsComputed(scene, kFilterTolerance);
+}
+
+TEST_F(LightShapes, APanelShinesBeforeIt) {
+  Light light = spot(180);
+  light.type = LightType::area;
+  light.u = {0.2f, 0, 0.1f};
+  light.v = {0, 0.3f, 0};
+  light.direction = normalize(cross(light.v, light.u));
+  light.grid = {3, 2};
+  expectAsComputed(room(light), 1e-5f);
 }
 
 // All of the light lands on the walls, so that its lumens are the sum over the pixels' areas.

@@ -1,4 +1,4 @@
-// Gobos, profiles, colours and lines of light in direct light and beams, against the reference.
+// Gobos, profiles, colours, lines, panels and skies in direct light and beams, against the reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "scene/ies.h"
 #include "scene/light_intensity.h"
 #include "scene/load.h"
+#include "scene/sky.h"
 #include "scratch_files.h"
 #include "shared_data.h"
 #include "transport/traced/traced_source.h"
@@ -135,6 +136,34 @@ TEST(LightThroughABall, OfAGobosCopyInAnotherColourAndALine) {
   line.samples = 64;  // as good as a line
   line.intensity = {50, 50, 100};
   scene.lights = {spot, other, line};
+  expectAsReference(scene);
+}
+
+TEST(LightThroughABall, OfAPanel) {
+  Scene scene = floorAndBall();
+  Light light = lampAtBall();
+  light.type = LightType::area;
+  light.u = {0, 0.1f, 0.5f};
+  light.v = {0.6f, 0.1f, 0};
+  light.direction = normalize(cross(light.v, light.u));
+  light.grid = {12, 12};  // as good as a panel
+  scene.lights.push_back(light);
+  expectAsReference(scene);
+}
+
+// Brighter above, and red at one side.
+TEST(LightThroughABall, OfASky) {
+  Scene scene = floorAndBall();
+  SkyMap map{"sky", {64, 32}, {}};
+  for (uint32_t i = 0; i < 64 * 32; ++i)
+    map.luminance.emplace_back(vec3(i % 64 < 20 ? 3.0f : 1, 1, 1) * (i < 64 * 16 ? 100.0f : 10.0f));
+  scene.skies.push_back(map);
+  Light light;
+  light.type = LightType::sky;
+  light.skyMap = 0;
+  light.skyRotation = 30;
+  light.sky = skyParts(map, 256);
+  scene.lights.push_back(light);
   expectAsReference(scene);
 }
 

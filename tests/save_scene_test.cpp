@@ -100,8 +100,10 @@ Scene changed(Scene scene) {
     if (light.type == LightType::line) light.end += vec3(0.1f, 0.1f, 0.2f);
     if (light.type == LightType::spot || light.type == LightType::directional)
       light.direction = normalize(light.direction + vec3(0.1f, -0.2f, 0.05f));
+    if (light.type == LightType::area) light.v *= 1.5f;
+    if (light.type == LightType::sky) light.skyRotation += 20;
+    if (light.type == LightType::sky || light.type == LightType::directional) light.position = vec3(0);
     if (light.type == LightType::directional) {
-      light.position = vec3(0);
       light.illuminance *= vec3(0.5f, 0.75f, 1);
     } else {
       light.intensity *= vec3(0.5f, 0.75f, 1);

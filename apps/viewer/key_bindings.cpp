@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "scene/emitters.h"
 #include "scene/framing.h"
 #include "techniques/registry.h"
 #include "viewer/camera_control.h"
@@ -31,7 +32,7 @@ void changeSource(Viewer& viewer) {
 void frameChosen(Viewer& viewer) {
   ViewerState& state = viewer.state();
   if (state.selection.what == Chosen::light) {
-    const vec3 place = state.scene.lights[state.selection.index].position;
+    const vec3 place = middleOf(state.scene.lights[state.selection.index]);
     return frameBox(state.scene.camera, place - 0.5f, place + 0.5f);
   }
   const bool isOne = state.selection.what == Chosen::object;

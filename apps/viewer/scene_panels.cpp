@@ -53,7 +53,12 @@ void drawSpot(Light& light) {
 }
 
 void drawLight(Light& light, const Light& first) {
-  if (light.type == LightType::directional) {
+  if (light.type == LightType::sky) {
+    colorAndStrength("light", "Luminance", light.intensity,
+                     endOfSlider(std::max({first.intensity.x, first.intensity.y, first.intensity.z})), "%.4g",
+                     "Multiplies the map (nit of an even sky)");
+    slider("Turned", light.skyRotation, -180, 180, "%.0f°", "About the upright axis (degrees)");
+  } else if (light.type == LightType::directional) {
     colorAndStrength("light", "Illuminance", light.illuminance,
                      endOfSlider(std::max({first.illuminance.x, first.illuminance.y, first.illuminance.z})),
                      "%.4g lx", "On a surface that faces the light (lux)");
@@ -61,7 +66,11 @@ void drawLight(Light& light, const Light& first) {
     colorAndStrength("light", "Intensity", light.intensity,
                      endOfSlider(std::max({first.intensity.x, first.intensity.y, first.intensity.z})),
                      "%.4g cd", "Luminous intensity (candela)");
-    dragMetres(light.type == LightType::line ? "From" : "Position", light.position, "Where it stands (m)");
+    constexpr auto kPlace = "Where it stands (m)";
+    const char* name = light.type == LightType::line   ? "From"
+                       : light.type == LightType::area ? "Corner"
+                                                       : "Position";
+    dragMetres(name, light.position, kPlace);
   }
   if (light.type == LightType::line) dragMetres("To", light.end, "Where the tube ends (m)");
   if (light.type == LightType::directional || light.type == LightType::spot) drawDirection(light.direction);

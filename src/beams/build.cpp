@@ -351,7 +351,7 @@ vec3 fluxOnto(const ShapedLight& light, const Emitter& emitter, vec3 a, vec3 b, 
   if (emitter.type == kEmitterDirectional)
     return emitter.power * (-0.5f * dot(emitter.direction, cross(b - a, c - a)));
   const std::array<vec3, 3> corners{a - emitter.position, b - emitter.position, c - emitter.position};
-  const vec3 power = emitter.type == kEmitterSpot ? meanIntensity(light, emitter, corners) : emitter.power;
+  const vec3 power = emitter.type == kEmitterPoint ? emitter.power : meanIntensity(light, emitter, corners);
   return power * solidAngle(corners[0], corners[1], corners[2]);
 }
 

@@ -1,4 +1,5 @@
-// A light reduced to what is sampled: a point, a cone of one, or a direction. Lines are several points.
+// A light reduced to what is sampled: a point, a cone of one, a direction, or a point of a panel. Lines,
+// panels and skies are several of these.
 #ifndef NEPHROID_OPTICS_EMITTER_H
 #define NEPHROID_OPTICS_EMITTER_H
 
@@ -9,13 +10,15 @@ SHARED_BEGIN
 SHARED_CONSTANT uint kEmitterDirectional = 0u;
 SHARED_CONSTANT uint kEmitterPoint = 1u;
 SHARED_CONSTANT uint kEmitterSpot = 2u;
+SHARED_CONSTANT uint kEmitterPanel =
+    3u;  // as bright from everywhere before it: by the cosine of the angle from its normal
 
 struct Emitter {
-  vec3 position;    // m (point, spot)
+  vec3 position;    // m; without meaning for a directional light
   uint type;        // kEmitter...
-  vec3 direction;   // unit, the way the light travels (directional, spot)
+  vec3 direction;   // unit, the way the light travels (directional, spot); the normal of a panel
   float coneScale;  // of coneFalloff
-  vec3 power;       // cd (point, spot) or lux on a facing surface (directional)
+  vec3 power;       // cd at its peak, or lux on a facing surface (directional)
   float coneOffset;
   uint light;  // which of the scene's it stands for: a gobo or profile of that one shapes its light besides
 };
@@ -34,6 +37,7 @@ SHARED_FUNCTION float coneFalloff(float cosine, float coneScale, float coneOffse
 
 // cd toward the unit vector `direction`, or lux for a directional light.
 SHARED_FUNCTION vec3 emitterPower(Emitter emitter, vec3 direction) {
+  if (emitter.type == kEmitterPanel) return emitter.power * max(dot(emitter.direction, direction), 0.0f);
   if (emitter.type != kEmitterSpot) return emitter.power;
   return emitter.power *
          coneFalloff(dot(emitter.direction, direction), emitter.coneScale, emitter.coneOffset);

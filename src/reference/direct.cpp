@@ -15,7 +15,7 @@ vec3 directIlluminance(const Boundaries& boundaries, const Lights& lights, uint3
   if (illumination.illuminance == vec3(0)) return vec3(0);
   if (!isLit(boundaries.rayScene(), illumination, point.position, point.clearance)) return vec3(0);
   vec3 lux = cosine * illumination.illuminance;
-  if (!lights.isDirectional(light))
+  if (!lights.comesFromAfar(light))
     lux *= boundaries.transmittance(point.medium, point.position, -illumination.direction,
                                     illumination.distance);
   return lux;

@@ -35,7 +35,8 @@ void add(SceneHasher& hasher, const Material& m) {
 
 void add(SceneHasher& hasher, const Light& l) {
   hasher.add(static_cast<uint32_t>(l.type), l.position, l.end, l.direction, l.intensity, l.illuminance,
-             l.innerAngle, l.outerAngle, l.goboTexture, l.goboRotation, l.profile);
+             l.innerAngle, l.outerAngle, l.goboTexture, l.goboRotation, l.profile, l.u, l.v, l.skyMap,
+             l.skyRotation);
 }
 
 void add(SceneHasher& hasher, const Medium& m) {
@@ -62,6 +63,7 @@ uint64_t fingerprint(const Scene& scene) {
   for (const Profile& profile : scene.profiles)
     hasher.add(static_cast<uint32_t>(profile.type), profile.verticalAngles, profile.horizontalAngles,
                profile.fractions);
+  for (const SkyMap& sky : scene.skies) hasher.add(sky.size.x, sky.size.y, sky.luminance);
   for (const Light& light : scene.lights) add(hasher, light);
   if (const std::optional<Medium>& medium = scene.medium) add(hasher, *medium);
   for (const Sensor& sensor : scene.sensors)

@@ -56,7 +56,11 @@ float coneWidth(const Light& light) {
 }  // namespace
 
 Lights::Lights(const Scene& sceneOfLights, Aim aim) : scene(sceneOfLights) {
-  for (const Light& light : scene.lights) shapes.push_back(shapedLight(scene, light));
+  for (const Light& light : scene.lights) {
+    shapes.push_back(shapedLight(scene, light));
+    skyOfLight.push_back(uint32_t(skies.size()));
+    if (light.type == LightType::sky) skies.emplace_back(scene.skies[light.skyMap], light.skyRotation);
+  }
   std::vector<Ball> objects, casters;
   for (const Object& object : scene.objects) {
     objects.push_back(ballAround(scene, object));
@@ -93,11 +97,14 @@ void Lights::addShares(uint32_t index, const std::vector<Target>& targets) {
   float coneFlux = 0;
   for (Target target : targets) {
     float flux = 0;
-    if (light.type == LightType::directional) {
+    if (comesFromAfar(index)) {
       target.radius = std::min(target.radius, sceneRadius);
-      flux = luminance(light.illuminance) * kPi * target.radius * target.radius;
+      const vec3 illuminance = light.type == LightType::directional
+                                   ? light.illuminance
+                                   : light.intensity * skies[skyOfLight[index]].illuminance();
+      flux = luminance(illuminance) * kPi * target.radius * target.radius;
     } else {
-      const float width = coneWidth(position(index, 0.5f), target.center, target.radius);
+      const float width = coneWidth(middleOf(light), target.center, target.radius);
       if (isSpot && width > coneWidth(light)) {
         coneFlux = luminance(peakIntensity(light)) * 2 * kPi * coneWidth(light);
         continue;
@@ -113,19 +120,33 @@ uint32_t Lights::count() const {
   return uint32_t(scene.lights.size());
 }
 
-bool Lights::isDirectional(uint32_t light) const {
-  return scene.lights[light].type == LightType::directional;
+bool Lights::comesFromAfar(uint32_t light) const {
+  const LightType type = scene.lights[light].type;
+  return type == LightType::directional || type == LightType::sky;
 }
 
 vec3 Lights::position(uint32_t index, float u) const {
   const Light& light = scene.lights[index];
-  return light.type == LightType::line ? glm::mix(light.position, light.end, u) : light.position;
+  if (light.type == LightType::line) return glm::mix(light.position, light.end, u);
+  if (light.type != LightType::area) return light.position;
+  const vec2 at = pointOnCurve(double(u));
+  return light.position + at.x * light.u + at.y * light.v;
+}
+
+// Of a directional light always the same.
+SkyDistribution::Sample Lights::fromAfar(uint32_t index, float u) const {
+  const Light& light = scene.lights[index];
+  if (light.type == LightType::directional) return {light.direction, light.illuminance};
+  SkyDistribution::Sample sample = skies[skyOfLight[index]].sample(u);
+  sample.weight *= light.intensity;
+  return sample;
 }
 
 Illumination Lights::illumination(uint32_t index, vec3 point, float u) const {
-  const Light& light = scene.lights[index];
-  if (light.type == LightType::directional)
-    return {light.direction, std::numeric_limits<float>::infinity(), light.illuminance};
+  if (comesFromAfar(index)) {
+    const auto [direction, lux] = fromAfar(index, u);
+    return {direction, std::numeric_limits<float>::infinity(), lux};
+  }
   const vec3 offset = point - position(index, u);
   const float distance = length(offset);
   const vec3 direction = offset / distance;
@@ -137,13 +158,11 @@ EmittedPhoton Lights::emit(double choice, float along) const {
                                        [](double u, const Share& share) { return u < share.cumulative; });
   const double before = chosen == shares.begin() ? 0 : (chosen - 1)->cumulative;
   const vec2 at = pointOnCurve(std::clamp((choice - before) / chosen->probability, 0.0, 1 - 0x1p-48));
-  const Light& light = scene.lights[chosen->light];
-  if (light.type == LightType::directional) return emitDirectional(*chosen, at);
+  if (comesFromAfar(chosen->light)) return emitFromAfar(*chosen, fromAfar(chosen->light, along), at);
   return emitFromPoint(*chosen, position(chosen->light, along), at);
 }
 
-EmittedPhoton Lights::emitDirectional(const Share& share, vec2 at) const {
-  const Light& light = scene.lights[share.light];
+EmittedPhoton Lights::emitFromAfar(const Share& share, const SkyDistribution::Sample& light, vec2 at) const {
   const mat3 frame = frameAround(light.direction);
   const vec2 disc = share.target.radius * sampleDisc(at);
   const vec3 through = share.target.center + frame[0] * disc.x + frame[1] * disc.y;
@@ -157,7 +176,7 @@ EmittedPhoton Lights::emitDirectional(const Share& share, vec2 at) const {
       density += float(shares[i].probability) / (kPi * radiusSquared);
   }
   const float back = dot(through - sceneCenter, light.direction) + 1.01f * sceneRadius;
-  return {through - back * light.direction, light.direction, light.illuminance / density, share.light};
+  return {through - back * light.direction, light.direction, light.weight / density, share.light};
 }
 
 EmittedPhoton Lights::emitFromPoint(const Share& share, vec3 origin, vec2 at) const {

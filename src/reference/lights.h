@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "reference/sky_distribution.h"
 #include "scene/light_intensity.h"
 #include "trace/ray_scene.h"
 
@@ -17,10 +18,10 @@ struct EmittedPhoton {
   uint32_t light = 0;
 };
 
-// Light that would fall on a point if nothing stood in the way. A sample of it where the light has a length.
+// Light that would fall on a point if nothing stood in the way. A sample of it where the light has an extent.
 struct Illumination {
   vec3 direction{0};    // unit, the way the light travels
-  float distance = 0;   // m; infinite for a directional light
+  float distance = 0;   // m; infinite where it comes from afar
   vec3 illuminance{0};  // lux on a facing surface, the air between not counted
 };
 
@@ -34,13 +35,13 @@ class Lights {
   Lights(const Scene& scene, Aim aim);
 
   uint32_t count() const;
-  bool isDirectional(uint32_t light) const;
-  // `u` in [0, 1): where along a line; without meaning for other lights.
+  bool comesFromAfar(uint32_t light) const;
+  // `u` in [0, 1): where along a line or on an area, from where of a sky; without meaning for other lights.
   Illumination illumination(uint32_t light, vec3 point, float u) const;
-  // The place light comes from: of a line at `u`; without meaning for a directional light.
+  // The place light comes from, at `u`; without meaning for light from afar.
   vec3 position(uint32_t light, float u) const;
 
-  // A photon: `choice` says of which light and in which direction or place, `along` where along it; both in
+  // A photon: `choice` says of which light and in which direction or place, `along` from where of it; both in
   // [0, 1). Choices spread evenly are photons spread evenly, and neighbouring ones go nearly the same way.
   EmittedPhoton emit(double choice, float along) const;
 
@@ -63,11 +64,14 @@ class Lights {
   };
 
   void addShares(uint32_t light, const std::vector<Target>& targets);
-  EmittedPhoton emitDirectional(const Share& share, vec2 at) const;
+  EmittedPhoton emitFromAfar(const Share& share, const SkyDistribution::Sample& light, vec2 at) const;
+  SkyDistribution::Sample fromAfar(uint32_t light, float u) const;
   EmittedPhoton emitFromPoint(const Share& share, vec3 origin, vec2 at) const;
 
   const Scene& scene;
-  std::vector<ShapedLight> shapes;  // of the lights
+  std::vector<ShapedLight> shapes;     // of the lights
+  std::vector<SkyDistribution> skies;  // of the lights that are one
+  std::vector<uint32_t> skyOfLight;    // of the lights, in `skies`
   vec3 sceneCenter{0};
   float sceneRadius = 0;  // m
   std::vector<Share> shares;

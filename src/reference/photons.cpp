@@ -51,7 +51,7 @@ PhotonTracer::PhotonTracer(const Scene& scene, const Boundaries& sceneBoundaries
     : boundaries(sceneBoundaries), lights(sceneLights), paths(followed) {
   for (uint32_t light = 0; light < scene.lights.size(); ++light)
     mediaOfLights.push_back(
-        lights.isDirectional(light) ? MediumStack{} : boundaries.mediaAround(lights.position(light, 0.5f)));
+        lights.comesFromAfar(light) ? MediumStack{} : boundaries.mediaAround(middleOf(scene.lights[light])));
 }
 
 // The first glass sends two photons on: what it reflects is a small part of the light over a wide field,
@@ -92,7 +92,7 @@ PhotonTracer::Photon PhotonTracer::emit(const PhotonPass& pass, uint32_t index, 
   photon.path.direction = emitted.direction;
   photon.path.media = mediaOfLights[emitted.light];
   photon.ray = {emitted.origin, emitted.direction};
-  photon.comesFromAfar = lights.isDirectional(emitted.light);
+  photon.comesFromAfar = lights.comesFromAfar(emitted.light);
   if (pass.bands.size() > 1) photon.band = uint32_t(random.uniform() * float(pass.bands.size()));
   return photon;
 }

@@ -135,17 +135,17 @@ vec3 Sight::scatteredFromLight(const View& view, float length, uint32_t source, 
   const float extinction = scene.medium->extinction;
   const float along = random.uniform();
   const float u = random.uniform();
-  const bool isDirectional = lights.isDirectional(source);
-  const DistanceSample sample = isDirectional ? sampleExtinction(u, extinction, length)
-                                              : sampleEquiangular(u, view.ray.origin, view.ray.direction,
-                                                                  length, lights.position(source, along));
+  const bool isFromAfar = lights.comesFromAfar(source);
+  const DistanceSample sample = isFromAfar ? sampleExtinction(u, extinction, length)
+                                           : sampleEquiangular(u, view.ray.origin, view.ray.direction, length,
+                                                               lights.position(source, along));
   const vec3 point = view.ray.origin + sample.distance * view.ray.direction;
   const Illumination illumination = lights.illumination(source, point, along);
   if (illumination.illuminance == vec3(0) || !(sample.density > 0)) return vec3(0);
   if (!isLit(boundaries.rayScene(), illumination, point, 0)) return vec3(0);
   const Medium& air = *scene.medium;
   float depth = opticalDepth(air, view.ray.origin, view.ray.direction, sample.distance);
-  if (!isDirectional) depth += opticalDepth(air, point, -illumination.direction, illumination.distance);
+  if (!isFromAfar) depth += opticalDepth(air, point, -illumination.direction, illumination.distance);
   return illumination.illuminance * phaseOf(air, -dot(illumination.direction, view.ray.direction)) *
          scatteringAt(air, point) * std::exp(-depth) / sample.density;
 }

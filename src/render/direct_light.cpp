@@ -58,11 +58,11 @@ DirectLight::DirectLight(gpu::Device& device, const Scene& scene, uint32_t shado
 }
 
 DirectLight::DrawnLight DirectLight::drawn(const Scene& scene, ShadowedLight shadowed) {
-  const Light& light = scene.lights[shadowed.emitter.light];
+  const Light& light = scene.lights[shadowed.row.first.light];
   DrawnLight drawn{std::move(shadowed), {}, kNone, kNone, vec2(0)};
-  drawn.key = {.type = drawn.shadowed.emitter.type,
+  drawn.key = {.type = drawn.shadowed.row.first.type,
                .mapCount = drawn.shadowed.mapCount,
-               .isLine = drawn.shadowed.samples > 1};
+               .isLine = drawn.shadowed.row.count > 1};
   if (light.type != LightType::spot) return drawn;
   drawn.gobo = light.goboTexture;
   drawn.profile = light.profile;
@@ -82,12 +82,12 @@ DirectConstants DirectLight::constants(uint32_t index) const {
   const ShadowedLight& light = drawn.shadowed;
   DirectConstants constants{};
   if (air_.lights != 0) constants.air = air_.lights + index * sizeof(AirLight);
-  constants.position = light.emitter.position;
-  constants.direction = light.samples > 1 ? light.step : light.emitter.direction;
-  constants.power = light.emitter.power;
-  constants.coneScale = light.emitter.coneScale;
-  constants.coneOffset = light.emitter.coneOffset;
-  constants.samples = light.samples;
+  constants.position = light.row.first.position;
+  constants.direction = light.row.count > 1 ? light.row.step : light.row.first.direction;
+  constants.power = light.row.first.power;
+  constants.coneScale = light.row.first.coneScale;
+  constants.coneOffset = light.row.first.coneOffset;
+  constants.samples = light.row.count;
   constants.goboTurn = drawn.goboTurn;
   if (light.mapCount == 0) return constants;
   const ShadowProjection& projection = light.projection;
@@ -96,7 +96,7 @@ DirectConstants DirectLight::constants(uint32_t index) const {
   constants.mapY = projection.up / width;
   constants.aim = projection.aim;
   constants.texelSize = width / float(light.resolution);
-  if (light.emitter.type == kEmitterDirectional) {
+  if (light.row.first.type == kEmitterDirectional) {
     constants.mapDepth = projection.forward / depth;
     constants.depthOffset = -projection.nearest / depth;
   } else {

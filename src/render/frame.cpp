@@ -95,8 +95,9 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
     onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
   ensureImages();
 
-  do drawFrame(remade, passes);
-  while (!technique_.finish());
+  drawFrame(remade, passes);
+  constexpr Remade kShadedAlone{.sight = false, .shadowMaps = false, .beams = false};
+  while (!technique_.finish()) drawFrame(kShadedAlone, passes);
   return summedByName(passes);
 }
 

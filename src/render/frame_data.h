@@ -27,7 +27,7 @@ struct SurfaceConstants {
 // A light and the projection that its shadow maps share: each map looks along `mapDepth`, with `aim` in its
 // middle.
 struct DirectConstants {
-  // As those of Emitter; of a line: the first of its points, with `direction` (m) from one to the next.
+  // As those of Emitter; of a row: the first of its points, with `direction` (m) from one to the next.
   vec3 position;
   float coneScale;
   vec3 direction;
@@ -43,7 +43,7 @@ struct DirectConstants {
   float texelSize;  // m, the width of a map's texel on a surface facing the light; at a depth of 1 m in a
                     // perspective
   vec3 aim;         // m
-  uint samples;     // points of a line
+  uint samples;     // points of a row
   vec2 goboTurn;    // of placeInGobo
   BUFFER_ADDRESS(AirLights) air;  // the first; not there where there is no air
 };

@@ -153,14 +153,14 @@ class Planner {
       if (!scene.meshOf(scene.objects[i]).positions.empty()) objects_.push_back(placed(scene, extents, i));
   }
 
-  ShadowedLight plan(const Light& light, uint32_t index) {
-    const std::vector<Emitter> points = emittersOf(light, index);
+  // `together`: emitters of the whole light.
+  ShadowedLight plan(const EmitterRow& row, uint32_t together) {
+    std::vector<Emitter> points(row.count, row.first);
+    for (uint32_t i = 0; i < row.count; ++i) points[i].position += float(i) * row.step;
     ShadowedLight lit;
-    lit.emitter = points.front();
-    lit.samples = static_cast<uint32_t>(points.size());
-    if (lit.samples > 1) lit.step = points[1].position - points[0].position;
+    lit.row = row;
     lit.resolution = static_cast<uint32_t>(
-        std::max(kFewestTexels, std::round(float(resolution_) / std::sqrt(float(lit.samples)))));
+        std::max(kFewestTexels, std::round(float(resolution_) / std::sqrt(float(together)))));
     shadowing_.clear();
     for (const PlacedObject& object : objects_)
       if (hasAir_ || std::ranges::any_of(points, [&](const Emitter& emitter) {
@@ -181,9 +181,9 @@ class Planner {
   void project(const std::vector<Emitter>& points, ShadowedLight& lit) const {
     ShadowProjection& projection = lit.projection;
     const float border = 1 + 4 / float(lit.resolution);
-    if (lit.emitter.type == kEmitterDirectional) {
+    if (lit.row.first.type == kEmitterDirectional) {
       lit.mapCount = 1;
-      setAxes(projection, lit.emitter.direction);
+      setAxes(projection, lit.row.first.direction);
       projection.aim = sphere_.center;
       projection.halfWidth = sphere_.radius * border;
       projection.nearest = -sphere_.radius;
@@ -198,12 +198,12 @@ class Planner {
       tangent = std::max(tangent, tangentOf(sphere_, emitter.position, forward));
     projection.aim = sphere_.center;
     const float cosCone =
-        lit.emitter.type == kEmitterSpot ? -lit.emitter.coneOffset / lit.emitter.coneScale : -1;
+        lit.row.first.type == kEmitterSpot ? -lit.row.first.coneOffset / lit.row.first.coneScale : -1;
     const float tanCone = std::sqrt(std::max(1 - cosCone * cosCone, 0.0f)) / cosCone;
     if (cosCone > 0 && tanCone < tangent) {
-      forward = lit.emitter.direction;
+      forward = lit.row.first.direction;
       tangent = tanCone;
-      projection.aim = lit.emitter.position + sphere_.radius * forward;
+      projection.aim = lit.row.first.position + sphere_.radius * forward;
     }
     lit.mapCount = tangent < kWidestTangent ? 1 : 6;
     setAxes(projection, forward);
@@ -279,7 +279,12 @@ std::vector<ShadowedLight> planShadowMaps(const Scene& scene, const std::vector<
                                           uint32_t resolution) {
   Planner planner(scene, extents, resolution);
   std::vector<ShadowedLight> lights;
-  for (uint32_t i = 0; i < scene.lights.size(); ++i) lights.push_back(planner.plan(scene.lights[i], i));
+  for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const std::vector<EmitterRow> rows = emitterRowsOf(scene.lights[i], i);
+    uint32_t together = 0;
+    for (const EmitterRow& row : rows) together += row.count;
+    for (const EmitterRow& row : rows) lights.push_back(planner.plan(row, together));
+  }
   return lights;
 }
 

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "optics/emitter.h"
-#include "scene/scene.h"
+#include "scene/emitters.h"
 
 namespace nephroid {
 
@@ -44,11 +43,9 @@ struct ShadowProjection {
   float farthest = 1;  // and where it is 1
 };
 
-// A light and the maps that see what stands in its way: for each of its points none, one, or six.
+// A row of emitters and the maps that see what stands in their way: for each none, one, or six.
 struct ShadowedLight {
-  Emitter emitter{};  // the first of its points
-  vec3 step{0};       // m, from one point to the next
-  uint32_t samples = 1;
+  EmitterRow row;
   uint32_t mapCount = 0;    // for each point
   uint32_t resolution = 1;  // texels along a side of a map
   ShadowProjection projection;
@@ -57,8 +54,8 @@ struct ShadowedLight {
 
 // One map for a directional light, for a spot, and for a point that sees all that can shadow within 60
 // degrees of an axis; six for other points. `extents` are those of scene.meshes. `resolution` is that of a
-// light of one point, in texels along a side; the points of a line, each of which has its share of the light
-// alone, have as many texels together.
+// light of one point, in texels along a side; the points of a line, an area or a sky, each of which has its
+// share of the light alone, have as many texels together. One after another for each row of each light.
 std::vector<ShadowedLight> planShadowMaps(const Scene& scene, const std::vector<MeshExtent>& extents,
                                           uint32_t resolution);
 

@@ -99,9 +99,9 @@ SensorLayer TechniqueMeter::read() {
   technique->update(gpuScene);
   SensorLayer layer;
   const uint32_t passes = technique->coversSquares() ? 1 : kPasses;
+  device.submitAndWait([&](gpu::CommandList& commands) { technique->record(commands, gpuScene); });
   do {
     layer.assign(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
-    device.submitAndWait([&](gpu::CommandList& commands) { technique->record(commands, gpuScene); });
     for (uint32_t pass = 0; pass < passes * passes; ++pass) {
       uploadPoints((vec2(float(pass % passes), float(pass / passes)) + 0.5f) / float(passes));
       addShaded(layer);

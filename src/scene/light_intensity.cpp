@@ -91,9 +91,11 @@ float profileFraction(const Profile& profile, vec3 local) {
 ShapedLight shapedLight(const Scene& scene, const Light& light) {
   ShapedLight shaped;
   shaped.intensity = light.intensity;
-  if (light.type != LightType::spot) return shaped;
-  shaped.cone = coneOf(light);
+  shaped.isPanel = light.type == LightType::area;
+  if (light.type != LightType::spot && !shaped.isPanel) return shaped;
   shaped.frame = lightFrame(light.direction);
+  if (shaped.isPanel) return shaped;
+  shaped.cone = coneOf(light);
   if (light.profile != kNone) shaped.profile = &scene.profiles[light.profile];
   if (light.goboTexture != kNone) {
     shaped.gobo = &scene.textures[light.goboTexture];
@@ -113,7 +115,7 @@ std::vector<ShapedLight> shapedLights(const Scene& scene) {
 
 vec3 lightIntensity(const ShapedLight& light, vec3 direction) {
   const vec3 local = alongFrame(light.frame, direction);
-  const float falloff = coneFalloff(local.z, light.cone.scale, light.cone.offset);
+  const float falloff = light.isPanel ? local.z : coneFalloff(local.z, light.cone.scale, light.cone.offset);
   if (!(falloff > 0)) return vec3(0);
   vec3 intensity = light.intensity * falloff;
   if (light.profile) intensity *= profileFraction(*light.profile, local);

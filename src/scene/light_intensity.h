@@ -10,7 +10,8 @@ namespace nephroid {
 // A light with what its intensity in every direction has in common: made once, asked often. The scene must
 // outlive it.
 struct ShapedLight {
-  vec3 intensity{0};  // cd, at the peak
+  vec3 intensity{0};     // cd, at the peak
+  bool isPanel = false;  // by Lambert's cosine law, in place of a cone
   SpotCone cone;
   LightFrame frame{};
   const Profile* profile = nullptr;
@@ -22,13 +23,13 @@ struct ShapedLight {
   bool isShaped() const { return profile || gobo; }
 };
 
-// For a directional light, which has no intensity, one without shape.
+// For a directional light or a sky, which have no intensity, one without shape.
 ShapedLight shapedLight(const Scene& scene, const Light& light);
 
 std::vector<ShapedLight> shapedLights(const Scene& scene);
 
-// Luminous intensity (cd) toward the unit vector `direction`; of the whole tube for a line. Cone of
-// KHR_lights_punctual, times gobo, times profile.
+// Luminous intensity (cd) toward the unit vector `direction`; of the whole tube or panel for a line or an
+// area. Cone of KHR_lights_punctual, times gobo, times profile.
 vec3 lightIntensity(const ShapedLight& light, vec3 direction);
 
 inline vec3 lightIntensity(const Scene& scene, const Light& light, vec3 direction) {

@@ -137,21 +137,31 @@ bool scaleStrength(const toml::table& table, const char* key, vec3 before, vec3 
   return true;
 }
 
+// What the file calls a light's strength.
+struct Strength {
+  const char* key = "intensity";
+  vec3 value{0};
+};
+
+Strength strengthOf(const Light& light) {
+  if (light.type == LightType::directional) return {"illuminance", light.illuminance};
+  if (light.type == LightType::sky) return {"luminance", light.intensity};
+  if (light.type == LightType::area) return {"luminance", light.intensity / length(cross(light.v, light.u))};
+  return {"intensity", light.intensity};
+}
+
 void saveStrength(const Light& before, const Light& after, bool hasOtherCone, const toml::table& table,
                   TomlText& text) {
-  const bool isDirectional = before.type == LightType::directional;
-  const vec3 was = isDirectional ? before.illuminance : before.intensity;
-  const vec3 is = isDirectional ? after.illuminance : after.intensity;
-  if (was == is && !hasOtherCone) return;
-  const char* key = isDirectional ? "illuminance" : "intensity";
-  if (!hasOtherCone &&
-      (scaleStrength(table, key, was, is, text) || scaleStrength(table, "flux", was, is, text)))
+  const Strength was = strengthOf(before), is = strengthOf(after);
+  if (was.value == is.value && before.intensity == after.intensity && !hasOtherCone) return;
+  if (!hasOtherCone && (scaleStrength(table, is.key, was.value, is.value, text) ||
+                        scaleStrength(table, "flux", before.intensity, after.intensity, text)))
     return;
   endCue(table, "dimmer", 1, text);
   if (table.contains("flux"))
-    text.replace(table, "flux", key, tomlColor(is));
+    text.replace(table, "flux", is.key, tomlColor(is.value));
   else
-    text.set(table, key, tomlColor(is));
+    text.set(table, is.key, tomlColor(is.value));
 }
 
 void saveDirection(const Light& before, const Light& after, const toml::table& table, TomlText& text) {
@@ -166,14 +176,19 @@ void saveDirection(const Light& before, const Light& after, const toml::table& t
 
 void saveLight(const Light& before, const Light& after, const toml::table& table, TomlText& text) {
   if (before == after) return;
-  const bool isLine = before.type == LightType::line;
-  if (before.position != after.position)
-    text.set(table, isLine ? "from" : "position", tomlVector(after.position));
+  const bool isArea = before.type == LightType::area;
+  if (before.position != after.position) {
+    const char* key = isArea ? "corner" : before.type == LightType::line ? "from" : "position";
+    text.set(table, key, tomlVector(after.position));
+  }
+  if (before.u != after.u) text.set(table, "u", tomlVector(after.u));
+  if (before.v != after.v) text.set(table, "v", tomlVector(after.v));
+  if (before.skyRotation != after.skyRotation) text.set(table, "rotation", tomlNumber(after.skyRotation));
   if (before.end != after.end) text.set(table, "to", tomlVector(after.end));
   // A spot that is moved keeps its direction, which "target" would not.
   Light aimed = before;
   if (table.contains("target") && before.position != after.position) aimed.direction = vec3(0);
-  saveDirection(aimed, after, table, text);
+  if (!isArea) saveDirection(aimed, after, table, text);
   const bool hasOtherCone = before.innerAngle != after.innerAngle || before.outerAngle != after.outerAngle;
   if (hasOtherCone) {
     text.set(table, "outer_angle", tomlNumber(after.outerAngle));

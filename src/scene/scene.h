@@ -147,22 +147,42 @@ struct Object {
   std::optional<Water> water;
 };
 
-enum class LightType { directional, point, spot, line };
+enum class LightType { directional, point, spot, line, area, sky };
+
+// Light from all around, infinitely far away: cells of equal angles. The middle of the map is toward -z, its
+// right half toward +x, its first row about +y.
+struct SkyMap {
+  std::string name;
+  uvec2 size{1};                // columns, rows
+  std::vector<vec3> luminance;  // nit, [row * size.x + column]
+};
+
+// A part of a sky as one directional light.
+struct SkyPart {
+  vec3 direction{0};    // unit, the way its light travels
+  vec3 illuminance{0};  // lux on a facing surface
+  bool operator==(const SkyPart&) const = default;
+};
 
 struct Light {
   std::string name;
   LightType type = LightType::point;
-  vec3 position{0};              // point, spot; one end of a line
-  vec3 end{0};                   // the other end of a line
-  vec3 direction{0, -1, 0};      // unit, the way the light travels
-  vec3 intensity{1};             // cd; of the whole tube for a line
-  vec3 illuminance{1};           // lux on a facing surface (directional)
-  float innerAngle = 0;          // degrees, half angle of full intensity (spot)
-  float outerAngle = 45;         // degrees, half angle of none; 180: no cone
-  uint32_t samples = 8;          // points a line is replaced by
+  vec3 position{0};          // point, spot; one end of a line; the first corner of an area
+  vec3 end{0};               // the other end of a line
+  vec3 u{0}, v{0};           // m, the sides of an area, which shines to the side of cross(v, u)
+  vec3 direction{0, -1, 0};  // unit, the way the light travels; of an area, its normal
+  vec3 intensity{1};      // cd; of the whole tube for a line, along its normal for an area; multiplies a sky
+  vec3 illuminance{1};    // lux on a facing surface (directional)
+  float innerAngle = 0;   // degrees, half angle of full intensity (spot)
+  float outerAngle = 45;  // degrees, half angle of none; 180: no cone
+  uint32_t samples = 8;   // points a line is replaced by
+  uvec2 grid{4};          // points an area is replaced by, along its sides
   uint32_t goboTexture = kNone;  // what a spot's image lets through
   float goboRotation = 0;        // degrees, clockwise for who looks along the light
   uint32_t profile = kNone;      // which shapes a spot; its peak is `intensity`
+  uint32_t skyMap = kNone;       // of Scene::skies
+  float skyRotation = 0;         // degrees about +y, anticlockwise from above
+  std::vector<SkyPart> sky;      // what the map is replaced by, before rotation and `intensity`
   bool operator==(const Light&) const = default;
 };
 
@@ -227,6 +247,7 @@ struct Scene {
   Environment environment;
   std::vector<Texture> textures;
   std::vector<Profile> profiles;
+  std::vector<SkyMap> skies;
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Object> objects;

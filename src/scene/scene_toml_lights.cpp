@@ -7,11 +7,15 @@
 #include "scene/emitters.h"
 #include "scene/ies.h"
 #include "scene/scene_toml.h"
+#include "scene/sky.h"
 
 namespace nephroid {
 namespace {
 
 constexpr double kMostLineSamples = 4096;
+constexpr double kMostAreaSamples = 64;  // along a side
+constexpr Range kSkySamples{2, 4096};
+constexpr int64_t kDefaultSkySamples = 64;
 constexpr uint32_t kLargestGoboSide = 4096;  // pixels
 
 // What is not covered is dark, so alpha counts as black.
@@ -145,6 +149,36 @@ void readLine(TomlTable& table, Light& light) {
   if (light.position == light.end) table.fail("to", "is where the line begins; its length must not be 0");
 }
 
+void readArea(TomlTable& table, Light& light) {
+  light.position = table.requiredVector3("corner");
+  light.u = table.requiredVector3("u");
+  light.v = table.requiredVector3("v");
+  const vec3 across = cross(light.v, light.u);
+  const float area = length(across);  // m2
+  if (!(area > 1e-9f)) table.fail("v", "and \"u\" span no area; they must not be 0 or in one line");
+  light.direction = across / area;
+  const auto flux = table.numberOrRgb("flux", kNotNegative);  // lm
+  if (flux && table.has("luminance"))
+    table.fail("flux", "and \"luminance\" are both there; give one of them");
+  light.intensity =
+      flux ? *flux / std::numbers::pi_v<float> : area * table.requiredNumberOrRgb("luminance", kNotNegative);
+  light.grid = table.integers2("samples", {1, kMostAreaSamples}).value_or(light.grid);
+}
+
+void readSky(TomlTable& table, Light& light, Scene& scene) {
+  light.skyMap = loadShared(table, "map", scene, &Light::skyMap, scene.skies, loadSky);
+  const auto luminance = table.numberOrRgb("luminance", kNotNegative);
+  if (light.skyMap == kNone) {
+    if (!luminance) table.fail("luminance", "or \"map\" must be there for a sky");
+    light.skyMap = static_cast<uint32_t>(scene.skies.size());
+    scene.skies.push_back(evenSky());
+  }
+  light.intensity = luminance.value_or(vec3(1));
+  light.skyRotation = static_cast<float>(table.numberAt("rotation", {-36000, 36000}, scene.time).value_or(0));
+  light.samples = static_cast<uint32_t>(table.integer("samples", kSkySamples).value_or(kDefaultSkySamples));
+  light.sky = skyParts(scene.skies[light.skyMap], light.samples);
+}
+
 }  // namespace
 
 void readLights(std::vector<TomlTable> tables, Scene& scene) {
@@ -152,8 +186,9 @@ void readLights(std::vector<TomlTable> tables, Scene& scene) {
     Light light;
     light.name = readName(table, scene.lights, "light " + std::to_string(scene.lights.size() + 1));
     if (!table.has("type")) table.requiredText("type");
-    constexpr std::array kTypes{LightType::point, LightType::spot, LightType::directional, LightType::line};
-    light.type = kTypes[table.choice("type", {"point", "spot", "directional", "line"})];
+    constexpr std::array kTypes{LightType::point, LightType::spot, LightType::directional,
+                                LightType::line,  LightType::area, LightType::sky};
+    light.type = kTypes[table.choice("type", {"point", "spot", "directional", "line", "area", "sky"})];
     switch (light.type) {
       case LightType::point:
         light.position = table.requiredVector3("position");
@@ -168,6 +203,12 @@ void readLights(std::vector<TomlTable> tables, Scene& scene) {
         break;
       case LightType::line:
         readLine(table, light);
+        break;
+      case LightType::area:
+        readArea(table, light);
+        break;
+      case LightType::sky:
+        readSky(table, light, scene);
         break;
     }
     const auto dimmer = static_cast<float>(table.numberAt("dimmer", {0, 1e6}, scene.time).value_or(1));

@@ -42,6 +42,12 @@ void addPortions(std::vector<BandQuery> queries, std::vector<std::vector<BandQue
   }
 }
 
+std::vector<Beam> joined(const std::vector<std::vector<Beam>>& portions) {
+  std::vector<Beam> all;
+  for (const std::vector<Beam>& portion : portions) all.insert(all.end(), portion.begin(), portion.end());
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::vector<BandQuery>> lightThroughCasters(const SceneTransport& transport, Paths paths,
@@ -92,13 +98,14 @@ std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source
   std::vector<Beam> beams = beamsOf(scene, source, queries, refined);
   // The grid of water is as fine as its waves.
   if (isWater || !source.refines() || settings.refineDepth == 0) return beams;
-  for (const std::vector<Beam>& portion : portionsByAxis(beams, boxes)) {
+  const std::vector<std::vector<Beam>> portions = portionsByAxis(std::move(beams), boxes);
+  for (const std::vector<Beam>& portion : portions) {
     const PlaneSet along = planAlongLight(portion, boxes, 2, settings.textureSize);
     if (along.planes == 0) continue;
     refined.targets.push_back(planeGrid(along, 0, 0));
     refined.targets.push_back(planeGrid(along, along.planes - 1, 0));
   }
-  if (refined.targets.empty()) return beams;
+  if (refined.targets.empty()) return joined(portions);
   refined.refineDepth = settings.refineDepth;
   refined.refineTolerance = 0.5f;
   return beamsOf(scene, source, queries, refined);

@@ -26,14 +26,20 @@ bool hasDispersion(const Scene& scene) {
   });
 }
 
-bool hasLineLight(const Scene& scene) {
+bool hasExtendedLight(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return light.type == LightType::line || light.type == LightType::area || light.type == LightType::sky;
+  });
+}
+
+bool hasSky(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(),
-                     [](const Light& light) { return light.type == LightType::line; });
+                     [](const Light& light) { return light.type == LightType::sky; });
 }
 
 bool hasNearLight(const Scene& scene) {
   return hasCaster(scene) && std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-           return light.type != LightType::directional;
+           return light.type != LightType::directional && light.type != LightType::sky;
          });
 }
 
@@ -69,10 +75,13 @@ std::span<const Omission> omissionsOfFrame() {
        "it "
        "scatters behind glass and in mirrors, and takes of what is seen there",
        hasMediumAndCaster},
-      {"The length of line lights: each is a row of points, in its light, its shadows and its caustics",
-       hasLineLight},
+      {"The extent of lights: a line is a row of points, an area a grid of them, a sky a number of "
+       "directions, in "
+       "light, shadows and caustics",
+       hasExtendedLight},
+      {"The sky itself: where nothing stands, and in glass and mirrors, the background is seen", hasSky},
       {"Shadow edges finer than two texels of a shadow map; there are as many texels as pixels along the "
-       "picture's longer side, divided by the square root of a line light's points",
+       "picture's longer side, divided by the square root of how many points or directions a light is",
        hasLightAndReceiver},
       {"Smooth edges: a pixel shows what its centre sees, not the mean over its square", always},
   };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/view.h"
+#include "scene/emitters.h"
 #include "scene/framing.h"
 
 namespace nephroid {
@@ -99,6 +100,11 @@ std::vector<Handle> handlesOf(const Scene& scene) {
         handles.push_back({i, HandlePart::body, light.position});
         handles.push_back({i, HandlePart::end, light.end});
         break;
+      case LightType::area:
+        handles.push_back({i, HandlePart::body, middleOf(light)});
+        break;
+      case LightType::sky:
+        break;
       case LightType::directional:
         handles.push_back({i, HandlePart::body, lit.centre - 2 * lit.radius * light.direction});
         break;
@@ -119,8 +125,9 @@ void moveHandle(Scene& scene, const Handle& handle, vec3 position) {
   } else if (handle.part == HandlePart::end) {
     if (position != light.position) light.end = position;
   } else {
-    if (light.type == LightType::line) light.end += position - light.position;
-    light.position = position;
+    const vec3 step = position - (light.type == LightType::area ? middleOf(light) : light.position);
+    if (light.type == LightType::line) light.end += step;
+    light.position += step;
   }
 }
 
@@ -158,6 +165,12 @@ void turn(Light& light, vec3 axis, float angle) {
     const vec3 centre = 0.5f * (light.position + light.end);
     light.position = centre + rotation * (light.position - centre);
     light.end = centre + rotation * (light.end - centre);
+  } else if (light.type == LightType::area) {
+    const vec3 centre = middleOf(light);
+    light.u = rotation * light.u;
+    light.v = rotation * light.v;
+    light.position = centre - 0.5f * (light.u + light.v);
+    light.direction = normalize(rotation * light.direction);
   } else if (light.type != LightType::point) {
     light.direction = normalize(rotation * light.direction);
   }

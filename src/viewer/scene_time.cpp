@@ -33,6 +33,7 @@ void follow(Light& light, const Light& was, const Light& is) {
   follow(light.innerAngle, was.innerAngle, is.innerAngle);
   follow(light.outerAngle, was.outerAngle, is.outerAngle);
   follow(light.goboRotation, was.goboRotation, is.goboRotation);
+  follow(light.skyRotation, was.skyRotation, is.skyRotation);
   followStrength(light.intensity, was.intensity, is.intensity);
   followStrength(light.illuminance, was.illuminance, is.illuminance);
 }

@@ -3,6 +3,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "gpu/transfer.h"
+#include "scene/emitters.h"
 #include "shaders/box_depths_comp.h"
 
 namespace nephroid {
@@ -41,7 +42,7 @@ DensityBox::DensityBox(gpu::Device& device, const Scene& scene)
   corner_ = grid.corner;
   size_ = grid.size;
   density_ = densityImage(device, grid);
-  const uint32_t sources = isThere_ ? static_cast<uint32_t>(scene.lights.size()) + 1 : 1;
+  const uint32_t sources = isThere_ ? static_cast<uint32_t>(emitterRowsOf(scene).size()) + 1 : 1;
   depths_ = gpu::createImage(device, "depths of the air",
                              {.format = VK_FORMAT_R16G16B16A16_SFLOAT,
                               .width = kAirNodes,
@@ -55,8 +56,8 @@ AirBox DensityBox::of(uint32_t light) const {
 
 void DensityBox::update(const Scene& scene) {
   sources_ = {scene.camera.position};
-  for (const Light& light : scene.lights)
-    sources_.push_back(light.type == LightType::line ? 0.5f * (light.position + light.end) : light.position);
+  for (const EmitterRow& row : emitterRowsOf(scene))
+    sources_.push_back(row.first.position + 0.5f * float(row.count - 1) * row.step);
 }
 
 void DensityBox::record(gpu::CommandList& commands) {

@@ -7,6 +7,7 @@
 
 #include "gpu/transfer.h"
 #include "scene/air.h"
+#include "scene/emitters.h"
 #include "shaders/air_vert.h"
 #include "shaders/shafts_frag.h"
 #include "shaders/transmittance_frag.h"
@@ -58,8 +59,8 @@ Shafts::Shafts(gpu::Device& device, const Scene& scene, uvec2 pictureSize, const
   transmittance_ =
       gpu::createRasterProgram(device, "transmittance of the air", shaders::air_vert,
                                shaders::transmittance_frag, {.colors = {{kFloats}}}, {{8, box_->isThere()}});
-  lights_ =
-      gpu::createBuffer(device, "air", (scene.lights.size() + 1) * sizeof(AirLight), gpu::MemoryKind::upload);
+  lights_ = gpu::createBuffer(device, "air", (emitterRowsOf(scene).size() + 1) * sizeof(AirLight),
+                              gpu::MemoryKind::upload);
   resize(pictureSize);
 }
 
@@ -78,7 +79,7 @@ LightsInAir Shafts::lightsInAir() const {
 
 void Shafts::update(const Scene& scene, const View& view) {
   if (!image_) return;
-  lightCount_ = static_cast<uint32_t>(scene.lights.size());
+  lightCount_ = static_cast<uint32_t>(emitterRowsOf(scene).size());
   air_ = airOf(*scene.medium);
   box_->update(scene);
   sight_ = airSight(view);

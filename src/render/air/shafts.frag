@@ -140,9 +140,10 @@ float visibleAt(Sight sight, Place place, vec2 middle, uint firstMap) {
 
 // I_l: what the light sends to a place, as a part of its peak.
 vec3 sentTo(Sight sight, Place place) {
-  if (kEmitterType != kEmitterSpot) return vec3(1);
+  if (kEmitterType != kEmitterSpot && kEmitterType != kEmitterPanel) return vec3(1);
   const float inverse = 1 / place.away;
   const float cosine = (sight.toAxis.x + place.along * sight.toAxis.y) * inverse;
+  if (kEmitterType == kEmitterPanel) return vec3(max(cosine, 0));
   const float part = coneFalloff(cosine, constants.coneScale, constants.coneOffset);
   if (!kHasGobo && kProfileType == kNoProfile) return vec3(part);
   return part > 0 ? part * shape((sight.origin + place.along * sight.direction) * inverse) : vec3(0);

@@ -1,6 +1,7 @@
 #include "techniques/planes/plane_technique.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "gpu/command_list.h"
 #include "shaders/deposit_comp.h"
@@ -52,11 +53,25 @@ gpu::Program shadeProgram(gpu::Device& device, const char* name, uint32_t channe
                                   {{0, channels}, {1, followsReceivers(settings)}});
 }
 
+// The directions of a sky, each of which has planes of its own and its share of the light alone, have about
+// as many texels together as a few lights have.
+TechniqueSettings settingsFor(const Scene& scene, TechniqueSettings settings) {
+  constexpr std::size_t kAtFullSize = 4;
+  constexpr uint32_t kFewestTexels = 64;
+  std::size_t directions = 0;
+  for (const Light& light : scene.lights) directions += light.sky.size();
+  if (directions <= kAtFullSize) return settings;
+  const float part = std::sqrt(float(kAtFullSize) / float(directions));
+  settings.textureSize =
+      std::min(settings.textureSize, std::max(uint32_t(float(settings.textureSize) * part), kFewestTexels));
+  return settings;
+}
+
 }  // namespace
 
 PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechniqueTraits& traitsOf)
     : device(context.device),
-      settings(context.settings),
+      settings(settingsFor(context.transport.scene(), context.settings)),
       traits(traitsOf),
       stats(context.stats),
       transport(context.transport),
