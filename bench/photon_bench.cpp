@@ -3,10 +3,10 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 
-#include <chrono>
 #include <filesystem>
 
 #include "core/atomic_file.h"
+#include "core/stopwatch.h"
 #include "reference/photons.h"
 #include "scene/load.h"
 
@@ -51,10 +51,6 @@ intensity = 120
   return scene;
 }
 
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Tracing and the bare loop take turns, so that both meet the same machine.
 void tracePhotonsBesideBareLoop(benchmark::State& state) {
   const auto threads = static_cast<std::size_t>(state.range(0));
@@ -78,13 +74,14 @@ void tracePhotonsBesideBareLoop(benchmark::State& state) {
 
   double traceSeconds = 0, bareSeconds = 0;
   for (auto _ : state) {
-    const auto traceStart = std::chrono::steady_clock::now();
+    const Stopwatch ours;
     benchmark::DoNotOptimize(tracePass(tracer, pass, PhotonVisitor(), ledger));
-    state.SetIterationTime(secondsSince(traceStart));
-    traceSeconds += secondsSince(traceStart);
-    const auto bareStart = std::chrono::steady_clock::now();
+    const double seconds = ours.seconds();
+    state.SetIterationTime(seconds);
+    traceSeconds += seconds;
+    const Stopwatch bare;
     benchmark::DoNotOptimize(rayScene.replay(rays));
-    bareSeconds += secondsSince(bareStart);
+    bareSeconds += bare.seconds();
   }
   const double all = static_cast<double>(rays.size()) * static_cast<double>(state.iterations());
   state.counters["rays_per_photon"] = static_cast<double>(rays.size()) / kPhotons;

@@ -2,8 +2,7 @@
 // states: 6,400 vertices, 129 directions, 10.6 MB, 1.2 hours of preprocessing.
 #include <benchmark/benchmark.h>
 
-#include <chrono>
-
+#include "core/stopwatch.h"
 #include "table_meshes.h"
 #include "trace/ray_scene.h"
 #include "transport/table/table.h"
@@ -18,10 +17,6 @@ constexpr double kPaperMegabytes = 10.6;
 Mesh papersBall() {
   return ballMesh(56, 0.5f);
 }  // 6,441 vertices
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // The rays a table of `mesh` takes: for each vertex and direction one back to the light, then from boundary
 // to boundary.
@@ -62,14 +57,15 @@ void buildBesideBareLoop(benchmark::State& state) {
   std::size_t bytes = 0;
   for (auto _ : state) {
     const uint64_t before = raysTraced();
-    const auto buildStart = std::chrono::steady_clock::now();
+    const Stopwatch ours;
     bytes = buildTable(mesh, vec3(kIor), {}, progress).sizeInBytes();
-    state.SetIterationTime(secondsSince(buildStart));
-    buildSeconds += secondsSince(buildStart);
+    const double seconds = ours.seconds();
+    state.SetIterationTime(seconds);
+    buildSeconds += seconds;
     traced += raysTraced() - before;
-    const auto bareStart = std::chrono::steady_clock::now();
+    const Stopwatch bare;
     benchmark::DoNotOptimize(scene.replay(rays));
-    bareSeconds += secondsSince(bareStart);
+    bareSeconds += bare.seconds();
   }
   const auto runs = static_cast<double>(state.iterations());
   const double buildRate = static_cast<double>(traced) / buildSeconds;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
@@ -12,6 +11,7 @@
 
 #include "core/image_io.h"
 #include "core/stats.h"
+#include "core/stopwatch.h"
 #include "techniques/settings.h"
 
 namespace nephroid {
@@ -83,16 +83,6 @@ const std::string& commandLine();
 // What an EXR says of how it was made. Neither a time nor a place, so that the same command writes the same
 // bytes.
 std::vector<ImageAttribute> imageAttributes(const TechniqueSettings& settings, const std::string& unit);
-
-class Stopwatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void writeStats(const std::filesystem::path& file, const Stats& stats);
 

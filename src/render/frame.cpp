@@ -1,9 +1,9 @@
 #include "render/frame.h"
 
 #include <algorithm>
-#include <chrono>
 #include <glm/gtc/constants.hpp>
 
+#include "core/stopwatch.h"
 #include "gpu/transfer.h"
 #include "render/frame_data.h"
 
@@ -13,10 +13,9 @@ namespace {
 // Runs `work` and notes its time under `name`.
 template <class Work>
 void onHost(std::vector<PassTime>& passes, const char* name, const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   work();
-  passes.push_back(
-      {name, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()});
+  passes.push_back({name, watch.milliseconds()});
 }
 
 // Passes that run several times in a frame as one each, where they first ran.

@@ -1,8 +1,7 @@
 #include "report/frame_bench.h"
 
-#include <chrono>
-
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "techniques/registry.h"
 
 namespace nephroid {
@@ -27,11 +26,11 @@ double FrameBench::seconds(Counts counts, const std::function<Scene(int)>& scene
   std::vector<double> seconds;
   for (int frame = 0; frame < counts.warmUps + counts.frames; ++frame) {
     const Scene scene = sceneOfFrame(frame);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     std::vector<PassTime> passes = renderer_.render(scene);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    const double taken = watch.seconds();
     if (frame < counts.warmUps) continue;
-    seconds.push_back(taken.count());
+    seconds.push_back(taken);
     passes_.push_back(std::move(passes));
   }
   return median(seconds);

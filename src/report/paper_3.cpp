@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
+#include "core/stopwatch.h"
 #include "gpu/command_list.h"
 #include "gpu/transfer.h"
 #include "report/frame_bench.h"
@@ -15,8 +15,6 @@
 
 namespace nephroid {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr FrameBench::Counts kCounts{.warmUps = 3, .frames = 15};
 constexpr int kLookUps = 50;
@@ -37,10 +35,6 @@ constexpr std::array<Row, 6> kRows{{{"sphere", 15.2, 17.3, 15.0, 8.1, 26.9, 1.7}
 
 Scene load(const std::filesystem::path& folder, const std::string& name) {
   return loadScene(folder / ("paper3-" + name + ".toml"));
-}
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 TechniqueSettings volumeSettings(Representation representation) {
@@ -64,9 +58,9 @@ double secondsPerLightSample(const Scene& scene) {
   const uint32_t last = volume.sampleCount() - 1;
   std::vector<double> seconds;
   for (const uint32_t sample : {0u, last / 2, last}) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     volume.makeSample(sample);
-    seconds.push_back(secondsSince(start));
+    seconds.push_back(watch.seconds());
   }
   return median(seconds);
 }
@@ -121,11 +115,11 @@ double lookUpMilliseconds(gpu::Device& device, const Scene& scene, Progress& pro
   frames.renderer().render(scene);
   std::vector<double> seconds;
   for (int frame = 0; frame < kCounts.warmUps + kLookUps; ++frame) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     device.submitAndWait([&](gpu::CommandList& commands) {
       frames.technique().shade(commands, {&positions, &normals}, caustics);
     });
-    if (frame >= kCounts.warmUps) seconds.push_back(secondsSince(start));
+    if (frame >= kCounts.warmUps) seconds.push_back(watch.seconds());
   }
   return 1000 * *std::ranges::min_element(seconds);
 }

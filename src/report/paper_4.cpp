@@ -3,9 +3,9 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <array>
-#include <chrono>
 
 #include "core/atomic_file.h"
+#include "core/stopwatch.h"
 #include "reference/lights.h"
 #include "reference/pinhole.h"
 #include "render/tone_mapping.h"
@@ -80,7 +80,7 @@ struct Marched {
 Marched marchRays(const Scene& scene, const Image& surfaces) {
   constexpr int kSteps = 180;
   constexpr float kFarthest = 14;  // m
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const RayScene rays(scene);
   const Lights lights(scene, Aim::everywhere);
   const Pinhole camera(scene.camera, kSize);
@@ -112,8 +112,7 @@ Marched marchRays(const Scene& scene, const Image& surfaces) {
       }
     }
   });
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {levelsOf(image, scene.camera.exposure), seconds};
+  return {levelsOf(image, scene.camera.exposure), watch.seconds()};
 }
 
 std::string rowOf(const char* figure, const char* symbol, uint32_t count) {

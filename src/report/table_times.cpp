@@ -1,9 +1,9 @@
 #include "report/table_times.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "core/stats.h"
+#include "core/stopwatch.h"
 #include "transport/table/table.h"
 #include "transport/table/table_source.h"
 
@@ -19,9 +19,9 @@ TableTimes timeTable(const Mesh& mesh, vec3 ior, Progress& progress) {
   times.vertices = mesh.positions.size();
   std::vector<double> seconds;
   for (int run = 0; run < kRuns; ++run) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     times.bytes = buildTable(mesh, ior, {}, progress).sizeInBytes();
-    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    seconds.push_back(watch.seconds());
   }
   times.seconds = median(seconds);
   return times;

@@ -1,0 +1,19 @@
+// Time that goes by.
+#pragma once
+
+#include <chrono>
+
+namespace nephroid {
+
+// Runs from where it is made.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double milliseconds() const { return 1000 * seconds(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace nephroid
