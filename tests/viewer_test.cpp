@@ -316,7 +316,8 @@ TEST(SceneTimes, MoveWhatMovesByItselfAsLoadingThenWould) {
   Scene scene = readTomlScene(kMoving, "scene.toml", 0);
   SceneState asLoaded = stateOf(scene);
   History history(asLoaded);
-  moveTo(scene, asLoaded, history, kMoving, 1);
+  WaveRuns waves;
+  moveTo(scene, asLoaded, history, kMoving, 1, waves);
   const Scene then = readTomlScene(kMoving, "scene.toml", 1);
   EXPECT_EQ(stateOf(scene), stateOf(then));
   EXPECT_EQ(asLoaded, stateOf(then));
@@ -333,7 +334,8 @@ TEST(SceneTimes, LeaveWhatHandsChanged) {
   scene.lights[0].intensity *= 2;
   History history(asLoaded);
   history.add(stateOf(scene));
-  moveTo(scene, asLoaded, history, kMoving, 2);
+  WaveRuns waves;
+  moveTo(scene, asLoaded, history, kMoving, 2, waves);
   EXPECT_EQ(scene.lights[0].direction, vec3(1, 0, 0));
   EXPECT_EQ(scene.lights[0].position, vec3(5, 5, 5));
   EXPECT_NEAR(scene.lights[0].intensity.x, 10, 1e-4f);
@@ -367,7 +369,8 @@ TEST(Stones, FallIntoWaterAndAreTakenBack) {
   history.add(stateOf(scene));
   EXPECT_FALSE(history.isSaved());
   SceneState asLoaded = stateOf(readTomlScene(kMoving, "scene.toml", 0));
-  moveTo(scene, asLoaded, history, kMoving, 0.5);
+  WaveRuns waves;
+  moveTo(scene, asLoaded, history, kMoving, 0.5, waves);
   const std::vector<vec3> moved = scene.meshes[0].positions;
   apply(history.undo(), scene);
   EXPECT_EQ(scene.meshes[0].positions, readTomlScene(kMoving, "scene.toml", 0.5).meshes[0].positions);

@@ -97,6 +97,82 @@ TEST(WaveSimulation, AFastObstacleLeavesWavesInItsWakeAlone) {
   EXPECT_NEAR(std::accumulate(heights.begin(), heights.end(), 0.0), 0, 1e-4);
 }
 
+void expectAsFresh(WaveRun& run, const Water& water, double time, uint64_t mostSteps) {
+  const uint64_t before = run.steps();
+  EXPECT_EQ(run.heightsAt(water, time), simulatedHeights(water, time)) << time << " s";
+  EXPECT_LE(run.steps() - before, mostSteps) << time << " s";
+}
+
+TEST(WaveRuns, GoOnToWhatAFreshRunComesTo) {
+  Water water = simulatedPool();
+  water.simulation->damping = 0.2f;
+  water.simulation->drops = {{0.1f, {0.3f, 0}, 0.1f, 0.02f}, {0.4f, {-0.5f, 0.2f}, 0.2f, 0.01f}};
+  water.simulation->obstacles = {{0.1f, 0.05f, {{-0.8f, 0, 0.2f}, {1.2f, 0, 1}, {1, 1, 2}}}};
+  const double step = 1 / simulationSteps(water, 1);
+  const auto stepsOf = [&](double seconds) { return uint64_t(seconds / step) + 2; };
+  WaveRun run;
+  expectAsFresh(run, water, 0.3, stepsOf(0.3));
+  for (double time = 0.3; time < 0.6; time += 1 / 60.0) expectAsFresh(run, water, time, stepsOf(1 / 60.0));
+  expectAsFresh(run, water, 0.6 + 0.1 * step, stepsOf(1 / 60.0));
+  expectAsFresh(run, water, 0.6 + 0.2 * step, 1);
+  expectAsFresh(run, water, 45 * step, stepsOf(0.1));  // at the end of a step
+  expectAsFresh(run, water, 0.2, stepsOf(0.2));        // back
+}
+
+TEST(WaveRuns, BeginAgainWhereThePastChangedAndNotForTheFuture) {
+  Water water = simulatedPool();
+  water.simulation->drops = {{0.1f, {0.3f, 0}, 0.1f, 0.02f}};
+  water.simulation->obstacles = {{0.1f, 0.05f, {{-0.8f, 0, 0}, {1.2f, 0, 2}}}};
+  WaveRun run;
+  expectAsFresh(run, water, 0.5, 1000);
+  water.simulation->drops.push_back({0.5f, {-0.5f, 0}, 0.1f, 0.02f});  // now
+  expectAsFresh(run, water, 0.52, 4);
+  water.simulation->obstacles[0].path.push_back({0, 0, 3});
+  water.simulation->obstacles.push_back({0.2f, 0.05f, {{0, 0, 1}, {0, 1, 2}}});
+  expectAsFresh(run, water, 0.54, 4);
+  const auto expectAnew = [&] {
+    const uint64_t before = run.steps();
+    expectAsFresh(run, water, 0.56, 1000);
+    EXPECT_GT(run.steps() - before, 20u);
+  };
+  water.simulation->drops[0].depth = 0.03f;
+  expectAnew();
+  water.simulation->obstacles[0].path[0].x = -0.7f;
+  expectAnew();
+  water.simulation->speed = 1.1f;
+  expectAnew();
+  water.size = {3, 4};
+  expectAnew();
+}
+
+class WaveRunsOfFiles : public ScratchFiles {};
+
+TEST_F(WaveRunsOfFiles, AreOfEachObjectOfASceneThatIsLoadedAtOneTimeAfterAnother) {
+  const std::filesystem::path file = write("two.toml", R"(
+[[material]]
+name = "water"
+type = "dielectric"
+[[object]]
+shape = "water"
+material = "water"
+grid = [9, 9]
+simulation = { drops = [{ time = 0, radius = 0.2 }] }
+[[object]]
+shape = "water"
+material = "water"
+grid = [17, 9]
+simulation = { drops = [{ time = 0.1, radius = 0.2 }] }
+)");
+  WaveRuns waves;
+  for (const double time : {0.5, 0.6}) {
+    const Scene kept = loadScene(file, time, &waves), fresh = loadScene(file, time);
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_EQ(kept.meshes[i].positions, fresh.meshes[i].positions) << i << ", " << time << " s";
+  }
+  ASSERT_EQ(waves.size(), 2u);
+  EXPECT_LE(waves[1].steps(), uint64_t(simulationSteps(*loadScene(file).objects[1].water, 0.6)) + 3);
+}
+
 Water sea() {
   Water water;
   water.size = {40, 30};

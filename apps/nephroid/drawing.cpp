@@ -11,7 +11,7 @@ namespace nephroid {
 std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& device, Progress& progress,
                                  Stats& stats, const std::function<void(Renderer&)>& use) {
   const Stopwatch preparing;
-  const Scene scene = loadScene(request.scene, request.time);
+  const Scene scene = loadScene(request.scene, request.time, request.waves);
   SceneTransport transport(scene, request.technique, progress);
   const auto technique = makeTechnique({device, request.technique, transport, stats});
   Renderer renderer(device, transport, renderSettings(request.technique, request.size), *technique);

@@ -8,6 +8,7 @@
 
 #include "render/frame.h"
 #include "render/measure.h"
+#include "scene/wave_simulation.h"
 #include "techniques/settings.h"
 
 namespace nephroid {
@@ -18,7 +19,8 @@ struct FrameRequest {
   const TechniqueSettings& technique;
   uvec2 size{640, 480};  // pixels
   uint32_t repeat = 1;
-  std::string name;  // of the step, for the progress bar
+  std::string name;           // of the step, for the progress bar
+  WaveRuns* waves = nullptr;  // of the frame before
 };
 
 struct FrameTime {

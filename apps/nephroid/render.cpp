@@ -59,9 +59,10 @@ void writePicture(Renderer& renderer, const TechniqueSettings& settings, const f
 
 // Draws and writes a frame; returns the times of all its repetitions.
 std::vector<FrameTime> drawJob(const RenderOptions& options, const FrameJob& job, gpu::Device& device,
-                               Progress& progress, Stats& stats) {
+                               Progress& progress, Stats& stats, WaveRuns& waves) {
   const FrameRequest request{options.scene, job.time,       options.technique,
-                             options.size,  options.repeat, job.output.filename().string()};
+                             options.size,  options.repeat, job.output.filename().string(),
+                             &waves};
   return drawFrame(request, device, progress, stats,
                    [&](Renderer& renderer) { writePicture(renderer, options.technique, job.output); });
 }
@@ -71,12 +72,13 @@ void renderReference(const RenderOptions& options, const std::vector<FrameJob>& 
   Stats stats;
   stats.technique = kReferenceName;
   stats.device = "host";
+  WaveRuns waves;
   for (const FrameJob& job : jobs) {
     const Stopwatch preparing;
     CommonOptions common = options;
     common.time = job.time;
     common.output = job.output;
-    const Scene scene = loadScene(options.scene, job.time);
+    const Scene scene = loadScene(options.scene, job.time, &waves);
     const RayScene rays(scene);
     const ReferenceSettings settings = referenceSettings(options.reference, options.technique, options.size);
     ReferenceImage image(scene, rays, settings);
@@ -101,8 +103,9 @@ void runRender(const RenderOptions& options) {
   stats.source = nameOf(options.technique.source);
 
   std::vector<FrameTime> times;
+  WaveRuns waves;
   for (const FrameJob& job : jobs) {
-    std::vector<FrameTime> part = drawJob(options, job, device, progress, stats);
+    std::vector<FrameTime> part = drawJob(options, job, device, progress, stats, waves);
     std::move(part.begin(), part.end(), std::back_inserter(times));
   }
   addMedianFrame(std::move(times), stats);

@@ -134,6 +134,7 @@ class Viewer {
   double prepareMilliseconds_ = 0;
 
   std::string text_;  // of the scene's file, as it is saved; empty for glTF
+  WaveRuns waves_;    // of the time that is shown
   bool isTextSaved_ = true;
   std::filesystem::file_time_type fileTime_{}, lastSeenTime_{};
   Clock::time_point lastWatch_{};

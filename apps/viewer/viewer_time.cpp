@@ -10,7 +10,7 @@ namespace nephroid {
 void Viewer::setTime(double seconds) {
   if (!state_.isOpen || state_.scene.time == seconds) return;
   try {
-    moveTo(state_.scene, state_.firstState, state_.history, text_, std::max(seconds, 0.0));
+    moveTo(state_.scene, state_.firstState, state_.history, text_, std::max(seconds, 0.0), waves_);
   } catch (const std::exception& wrong) {
     state_.isPlaying = false;
     return tell(state_, wrong.what(), true);

@@ -7,9 +7,9 @@
 
 namespace nephroid {
 
-Scene loadScene(const std::filesystem::path& file, double time) {
+Scene loadScene(const std::filesystem::path& file, double time, WaveRuns* waves) {
   const std::string extension = lowerExtension(file);
-  if (extension == ".toml") return loadTomlScene(file, time);
+  if (extension == ".toml") return loadTomlScene(file, time, waves);
   if (extension == ".gltf" || extension == ".glb") return loadGltfScene(file, time);
   throw InputError(oneLine(file.string() + ": a scene is a .toml, .gltf or .glb file"));
 }

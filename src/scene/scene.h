@@ -99,6 +99,7 @@ struct WaterDrop {
   vec2 position{0};     // m, (x, z)
   float radius = 0.1f;  // m
   float depth = 0.02f;  // m, in its middle
+  bool operator==(const WaterDrop&) const = default;
 };
 
 // What moves through simulated water, upright and round, with a rim that falls off as a Gaussian.
@@ -106,6 +107,7 @@ struct WaterObstacle {
   float radius = 0.1f;     // m
   float depth = 0.02f;     // m that it reaches down in its middle
   std::vector<vec3> path;  // x, z (m) and time (s), which rises; it stands still before and after
+  bool operator==(const WaterObstacle&) const = default;
 };
 
 // The wave equation on the water's grid, with walls that send waves back along its sides; still at time 0.
@@ -114,6 +116,7 @@ struct WaveSimulation {
   float damping = 0;  // 1/s
   std::vector<WaterDrop> drops;
   std::vector<WaterObstacle> obstacles;
+  bool operator==(const WaveSimulation&) const = default;
 };
 
 enum class SpectrumShape { jonswap, phillips };

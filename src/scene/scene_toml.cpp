@@ -74,11 +74,12 @@ std::string readSceneFile(const std::filesystem::path& file) {
   return readFile(file, kLargestSceneFile);
 }
 
-Scene loadTomlScene(const std::filesystem::path& file, double time) {
-  return readTomlScene(readSceneFile(file), file, time);
+Scene loadTomlScene(const std::filesystem::path& file, double time, WaveRuns* waves) {
+  return readTomlScene(readSceneFile(file), file, time, waves);
 }
 
-Scene readTomlScene(const std::string& text, const std::filesystem::path& file, double time) {
+Scene readTomlScene(const std::string& text, const std::filesystem::path& file, double time,
+                    WaveRuns* waves) {
   const std::string name = oneLine(file.string());
   const toml::table root = parseToml(text, name);
   TomlTable top(root, name, "");
@@ -96,7 +97,7 @@ Scene readTomlScene(const std::string& text, const std::filesystem::path& file, 
   if (environment) scene.environment = readEnvironment(*environment);
   if (medium) scene.medium = readMedium(*medium, file.parent_path());
   readMaterials(std::move(materials), scene);
-  const std::optional<Camera> imported = readObjects(std::move(objects), scene);
+  const std::optional<Camera> imported = readObjects(std::move(objects), scene, waves);
   readLights(std::move(lights), scene);
   readSensors(std::move(sensors), scene);
   scene.camera = camera ? readCamera(*camera) : imported ? *imported : framingCamera(scene);

@@ -4,13 +4,15 @@
 
 #include "scene/scene.h"
 #include "scene/toml_table.h"
+#include "scene/wave_simulation.h"
 
 namespace nephroid {
 
 // The scene in a .toml file. Throws InputError.
-Scene loadTomlScene(const std::filesystem::path& file, double time);
+Scene loadTomlScene(const std::filesystem::path& file, double time, WaveRuns* waves = nullptr);
 // The same of its text, which may have changed since; and that text as the file has it.
-Scene readTomlScene(const std::string& text, const std::filesystem::path& file, double time);
+Scene readTomlScene(const std::string& text, const std::filesystem::path& file, double time,
+                    WaveRuns* waves = nullptr);
 std::string readSceneFile(const std::filesystem::path& file);
 
 // The parts of it. Each adds to `scene` what its tables say.
@@ -19,10 +21,10 @@ void readLights(std::vector<TomlTable> tables, Scene& scene);
 Medium readMedium(TomlTable table, const std::filesystem::path& folder);
 
 // As above; gives the first camera that was imported.
-std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene);
+std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene, WaveRuns* waves = nullptr);
 
 // The mesh of an [[object]] that has a `shape`; sets object.water for water.
-Mesh readShape(TomlTable& table, Object& object, const Scene& scene);
+Mesh readShape(TomlTable& table, Object& object, const Scene& scene, WaveRuns* waves);
 
 // The key `name`, or `byDefault`; an error where one of `existing` has it already.
 template <class Named>

@@ -134,7 +134,7 @@ void addTo(Scene& scene, GltfPart part, const Placement& placement, const std::s
 
 class ObjectReader {
  public:
-  explicit ObjectReader(Scene& scene) : scene_(scene) {}
+  ObjectReader(Scene& scene, WaveRuns* waves) : scene_(scene), waves_(waves) {}
 
   std::optional<Camera> camera;  // the first that was imported
 
@@ -148,7 +148,7 @@ class ObjectReader {
     if (table.has("import")) return import(table, object.name);
     object.material = materialNamed(table, scene_);
     const ObjectTransform transform = readTransform(table);
-    object.mesh = table.has("mesh") ? meshFrom(table) : added(readShape(table, object, scene_));
+    object.mesh = table.has("mesh") ? meshFrom(table) : added(readShape(table, object, scene_, waves_));
     object.placement = fitted(transform, boundingBox(scene_.meshOf(object)));
     table.finish();
     scene_.objects.push_back(object);
@@ -193,6 +193,7 @@ class ObjectReader {
   }
 
   Scene& scene_;
+  WaveRuns* waves_;
   std::map<std::pair<std::filesystem::path, uint32_t>, uint32_t> meshOfFile_;  // by file and "vertices"
 };
 
@@ -220,8 +221,8 @@ void readMaterials(std::vector<TomlTable> tables, Scene& scene) {
   }
 }
 
-std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene) {
-  ObjectReader reader(scene);
+std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene, WaveRuns* waves) {
+  ObjectReader reader(scene, waves);
   for (TomlTable& table : tables) reader.read(table);
   return reader.camera;
 }

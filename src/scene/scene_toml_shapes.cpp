@@ -33,7 +33,7 @@ Mesh readTorusKnot(TomlTable& table) {
 
 }  // namespace
 
-Mesh readShape(TomlTable& table, Object& object, const Scene& scene) {
+Mesh readShape(TomlTable& table, Object& object, const Scene& scene, WaveRuns* waves) {
   using Reader = std::function<Mesh()>;
   const std::vector<std::pair<std::string, Reader>> shapes{
       {"sphere", [&] { return makeSphere(length(table, "radius", 0.5), readDensity(table)); }},
@@ -57,7 +57,7 @@ Mesh readShape(TomlTable& table, Object& object, const Scene& scene) {
       {"plane",
        [&] { return makePlane(table.vector2("size", kPositive).value_or(vec2(1)), readDensity(table)); }},
       {"teapot", [&] { return makeTeapot(length(table, "size", 1), readDensity(table)); }},
-      {"water", [&] { return readWater(table, object, scene); }},
+      {"water", [&] { return readWater(table, object, scene, waves); }},
   };
   std::vector<std::string> names;
   for (const auto& shape : shapes) names.push_back(shape.first);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "scene/mesh_file.h"
-#include "scene/wave_simulation.h"
 
 namespace nephroid {
 namespace {
@@ -138,7 +137,7 @@ Density readDensity(TomlTable& table) {
   return {static_cast<uint32_t>(segments.value_or(0)), static_cast<uint32_t>(vertices.value_or(0))};
 }
 
-Mesh readWater(TomlTable& table, Object& object, const Scene& scene) {
+Mesh readWater(TomlTable& table, Object& object, const Scene& scene, WaveRuns* waves) {
   Water water;
   if (table.has("sequence")) {
     water.grid = uvec2(0);
@@ -159,7 +158,7 @@ Mesh readWater(TomlTable& table, Object& object, const Scene& scene) {
     water.ocean = readOcean(*ocean);
   }
   object.water = water;
-  return makeWater(water, scene.time);
+  return makeWater(water, scene.time, waves ? &(*waves)[scene.objects.size()] : nullptr);
 }
 
 }  // namespace nephroid

@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 #include "scene/shapes.h"
 #include "scene/toml_table.h"
+#include "scene/wave_simulation.h"
 
 namespace nephroid {
 
@@ -11,6 +12,6 @@ namespace nephroid {
 Density readDensity(TomlTable& table);
 
 // At the scene's time; sets object.water.
-Mesh readWater(TomlTable& table, Object& object, const Scene& scene);
+Mesh readWater(TomlTable& table, Object& object, const Scene& scene, WaveRuns* waves);
 
 }  // namespace nephroid

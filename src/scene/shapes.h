@@ -6,6 +6,8 @@
 
 namespace nephroid {
 
+class WaveRun;
+
 // How finely a shape is cut: by the number of edges once round it (along its longest side where it is flat),
 // or by the number of vertices it comes closest to. 0: not given; both 0: the shape's own.
 struct Density {
@@ -43,8 +45,8 @@ Mesh makePlane(vec2 size, Density density = {});
 Mesh makeTeapot(float size, Density density = {});
 
 // The surface y(x, z) at `time` (s); its bottom is open. Vertex (i, j) of the grid has the index j * grid.x +
-// i, x and z rising.
-Mesh makeWater(const Water& water, double time);
+// i, x and z rising. Its simulation goes on from `run`, where there is one.
+Mesh makeWater(const Water& water, double time, WaveRun* run = nullptr);
 
 // Height (m) and slope (d/dx, d/dz) of the water at (x, z). `direction` enters as it is, so one that is not
 // unit shortens or stretches its wave.

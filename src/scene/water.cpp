@@ -37,9 +37,8 @@ void addWaves(const Water& water, double time, std::vector<ShapePoint>& points, 
   }
 }
 
-void addSimulation(const Water& water, double time, dvec2 spacing, std::vector<ShapePoint>& points,
-                   std::vector<dvec2>& slopes) {
-  const std::vector<double> heights = simulatedHeights(water, time);
+void addSimulation(const std::vector<double>& heights, const Water& water, dvec2 spacing,
+                   std::vector<ShapePoint>& points, std::vector<dvec2>& slopes) {
   const OnGrid<double> grid{heights, water.grid, spacing};
   for (uint32_t z = 0, i = 0; z < water.grid.y; ++z)
     for (uint32_t x = 0; x < water.grid.x; ++x, ++i) {
@@ -61,7 +60,7 @@ void setNormals(const Water& water, const std::vector<dvec2>& offsets, dvec2 spa
     }
 }
 
-std::vector<ShapePoint> surfacePoints(const Water& water, double time) {
+std::vector<ShapePoint> surfacePoints(const Water& water, double time, WaveRun& run) {
   const dvec2 half = 0.5 * dvec2(water.size);
   const uvec2 cells = water.grid - 1u;
   const dvec2 spacing = dvec2(water.size) / dvec2(cells);
@@ -71,7 +70,7 @@ std::vector<ShapePoint> surfacePoints(const Water& water, double time) {
       points.push_back({{between(-half.x, half.x, x, cells.x), 0, between(-half.y, half.y, z, cells.y)}, {}});
   std::vector<dvec2> slopes(points.size(), dvec2(0)), offsets;
   addWaves(water, time, points, slopes);
-  if (water.simulation) addSimulation(water, time, spacing, points, slopes);
+  if (water.simulation) addSimulation(run.heightsAt(water, time), water, spacing, points, slopes);
   if (water.ocean) {
     OceanSurface sea = oceanSurface(water, time);
     offsets = std::move(sea.offsets);
@@ -98,11 +97,12 @@ WaterPoint waterAt(const Water& water, glm::dvec2 xz, double time) {
   return point;
 }
 
-Mesh makeWater(const Water& water, double time) {
+Mesh makeWater(const Water& water, double time, WaveRun* run) {
+  WaveRun fresh;
   const uvec2 cells = water.grid - 1u;
   Mesh mesh;
   mesh.name = "water";
-  for (const ShapePoint& point : surfacePoints(water, time)) addVertex(mesh, point);
+  for (const ShapePoint& point : surfacePoints(water, time, run ? *run : fresh)) addVertex(mesh, point);
   for (uint32_t j = 0; j < cells.y; ++j) {
     for (uint32_t i = 0; i < cells.x; ++i) {
       const uint32_t a = j * water.grid.x + i, b = a + 1, d = a + water.grid.x, c = d + 1;

@@ -83,6 +83,21 @@ double firstMotion(const WaveSimulation& simulation) {
   return first;
 }
 
+// What there is of a simulation until `time` (s), as far as the water can tell.
+WaveSimulation before(const WaveSimulation& simulation, double time) {
+  WaveSimulation part = simulation;
+  std::erase_if(part.drops, [&](const WaterDrop& drop) { return double(drop.time) >= time; });
+  for (WaterObstacle& obstacle : part.obstacles) {
+    const auto next =
+        std::ranges::find_if(obstacle.path, [&](const vec3& at) { return double(at.z) >= time; });
+    // It is on its way there.
+    if (next != obstacle.path.end()) obstacle.path.erase(next + 1, obstacle.path.end());
+  }
+  std::erase_if(part.obstacles,
+                [&](const WaterObstacle& obstacle) { return double(obstacle.path.front().z) >= time; });
+  return part;
+}
+
 }  // namespace
 
 double stableStep(dvec2 spacing, double speed) {
@@ -140,15 +155,36 @@ double simulationSteps(const Water& water, double time) {
 }
 
 std::vector<double> simulatedHeights(const Water& water, double time) {
-  WaveField field = stillField(water);
-  const double steps = std::max(time, 0.0) / field.step;
-  double done = std::floor(std::clamp(firstMotion(*water.simulation) / field.step, 0.0, steps));
-  for (; done < steps; ++done) simulateStep(field, *water.simulation, done);
+  return WaveRun().heightsAt(water, time);
+}
+
+bool WaveRun::leadsTo(const Water& water, double steps) const {
+  return steps_ > 0 && done_ <= steps && field_.grid == water.grid && size_ == water.size &&
+         simulation_ == before(*water.simulation, done_ * field_.step);
+}
+
+std::vector<double> WaveRun::heightsAt(const Water& water, double time) {
+  const double steps = simulationSteps(water, time);
+  if (!leadsTo(water, steps)) {
+    field_ = stillField(water);
+    // A step early: what is rounded up may not pass it by.
+    done_ = std::floor(std::clamp(firstMotion(*water.simulation) / field_.step - 1, 0.0, steps));
+    size_ = water.size;
+  }
+  const auto step = [&](WaveField& field) {
+    simulateStep(field, *water.simulation, done_);
+    ++steps_;
+  };
+  for (; done_ + 1 < steps; ++done_) step(field_);
+  simulation_ = before(*water.simulation, done_ * field_.step);
+  WaveField last = field_;
+  if (!(done_ < steps)) return std::move(last.heights);
+  step(last);
   // Between the last two steps.
-  const double part = done - steps;
-  for (std::size_t i = 0; i < field.heights.size(); ++i)
-    field.heights[i] += part * (field.before[i] - field.heights[i]);
-  return std::move(field.heights);
+  const double part = done_ + 1 - steps;
+  for (std::size_t i = 0; i < last.heights.size(); ++i)
+    last.heights[i] += part * (last.before[i] - last.heights[i]);
+  return std::move(last.heights);
 }
 
 }  // namespace nephroid

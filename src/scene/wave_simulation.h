@@ -2,15 +2,12 @@
 // space; its sides send waves back (no slope across them).
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "scene/scene.h"
 
 namespace nephroid {
-
-inline bool operator==(const WaterDrop& a, const WaterDrop& b) {
-  return a.time == b.time && a.position == b.position && a.radius == b.radius && a.depth == b.depth;
-}
 
 struct WaveField {
   uvec2 grid{2, 2};
@@ -36,5 +33,28 @@ double simulationSteps(const Water& water, double time);
 
 // m, at the vertices of the water's grid; still before time 0.
 std::vector<double> simulatedHeights(const Water& water, double time);
+
+// A simulation that is asked for one time after another, with what it came to the last time.
+class WaveRun {
+ public:
+  // As simulatedHeights, to the last bit. Goes on from the last time it was asked for, unless that is past
+  // `time` or the water has since changed in what it did up to there.
+  std::vector<double> heightsAt(const Water& water, double time);
+
+  // Simulated so far.
+  uint64_t steps() const { return steps_; }
+
+ private:
+  bool leadsTo(const Water& water, double steps) const;
+
+  WaveField field_;            // at the end of the last step but one
+  double done_ = 0;            // steps up to there
+  vec2 size_{0};               // m, of the water
+  WaveSimulation simulation_;  // what of it there was until then
+  uint64_t steps_ = 0;
+};
+
+// Of a scene's objects, by index.
+using WaveRuns = std::map<std::size_t, WaveRun>;
 
 }  // namespace nephroid

@@ -69,12 +69,15 @@ void moveLights(Scene& scene, SceneState& asLoaded, History& history, const std:
 
 }  // namespace
 
-void moveTo(Scene& scene, SceneState& asLoaded, History& history, const std::string& text, double time) {
+void moveTo(Scene& scene, SceneState& asLoaded, History& history, const std::string& text, double time,
+            WaveRuns& waves) {
   scene.time = time;
   if (!text.empty()) moveLights(scene, asLoaded, history, text);
   // A sequence of meshes stays as it was loaded.
-  for (const Object& object : scene.objects)
-    if (takesStones(object)) scene.meshes[object.mesh] = makeWater(*object.water, time);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (takesStones(object)) scene.meshes[object.mesh] = makeWater(*object.water, time, &waves[i]);
+  }
 }
 
 }  // namespace nephroid
