@@ -165,5 +165,67 @@ TEST(VolumetricCaustic, OfAPaneIsItsTransmittance) {
   }
 }
 
+Material turbidWater() {
+  Material water = glass(1.33f);
+  water.attenuationColor = {0.5f, 0.8f, 0.9f};
+  water.attenuationDistance = 1;
+  water.scattering = {0.5f, 1, 2};
+  water.phase = PhaseType::henyeyGreenstein;
+  water.g = 0.4f;
+  return water;
+}
+
+// Still water, 0.3 m deep, under a vertical sun.
+Scene turbidPool(float size) {
+  Scene scene;
+  Water still;
+  still.size = vec2(size);
+  add(scene, makeWater(still, 0), turbidWater());
+  add(scene, makePlane({2, 2}), diffuse(0), {0, -0.3f, 0});
+  scene.lights = {sun({0, -1, 0})};
+  return scene;
+}
+
+void expectInWater(const Scene& scene, uint32_t photons, glm::dvec3 expected) {
+  ReferenceSettings settings;
+  settings.size = {8, 8};
+  settings.photons = photons;
+  settings.spectrum = Spectrum::channels;
+  const RayScene rays(scene);
+  ReferenceImage image(scene, rays, settings);
+  const auto channels = blockMeans(image, {"shafts.R", "shafts.G", "shafts.B"}, 96, 8);
+  for (int c = 0; c < 3; ++c) {
+    const SampleMean& nits = channels[std::size_t(c)][0];
+    // Balls of photons reach out of the water.
+    EXPECT_LT(std::abs(nits.mean() - expected[c]), 4 * nits.standardError() + 0.01 * expected[c])
+        << nits.mean() << ", not " << expected[c] << " in channel " << c;
+    EXPECT_LT(nits.standardError(), 0.08 * expected[c]);
+  }
+}
+
+const glm::dvec3 kTurbidScattering(0.5, 1, 2);
+const glm::dvec3 kTurbidExtinction = kTurbidScattering - glm::log(glm::dvec3(0.5, 0.8, 0.9));
+const Air kTurbid{PhaseType::henyeyGreenstein, 0.4};
+
+TEST(TurbidWater, SeenFromAboveIsItsClosedForm) {
+  Scene scene = turbidPool(0.1f);
+  scene.camera = {.position = {0, 1, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .verticalFov = 0.5f};
+  const double through = 1 - fresnel(1, 1 / 1.33);
+  const glm::dvec3 both = 2.0 * kTurbidExtinction;
+  expectInWater(scene, 1 << 13,
+                kTurbidScattering * kTurbid.phase(-1) * 1000.0 * through * through / (1.33 * 1.33) *
+                    (1.0 - glm::exp(-both * 0.3)) / both);
+}
+
+TEST(TurbidWater, SeenFromWithinIsItsClosedForm) {
+  Scene scene = turbidPool(0.3f);
+  add(scene, makeBox({0.02f, 0.15f, 0.15f}), diffuse(0), {0.06f, -0.1f, 0});
+  scene.camera = {.position = {-0.05f, -0.1f, 0}, .target = {0, -0.1f, 0}, .verticalFov = 10};
+  expectInWater(scene, 1 << 15,
+                kTurbidScattering * kTurbid.phase(0) * 1000.0 * (1 - fresnel(1, 1 / 1.33)) *
+                    glm::exp(-kTurbidExtinction * 0.1) * (1.0 - glm::exp(-kTurbidExtinction * 0.1)) /
+                    kTurbidExtinction);
+}
+
 }  // namespace
 }  // namespace nephroid

@@ -23,6 +23,9 @@ type = "dielectric"
 ior = [1.5, 1.51, 1.52]
 attenuation_color = [0.8, 1.0, 0.9]
 attenuation_distance = 0.5
+scattering = 0.2
+phase = "henyey-greenstein"
+g = 0.7
 [[material]]
 name = "gold"
 type = "mirror"
@@ -80,6 +83,9 @@ resolution = [32, 16]
   ASSERT_EQ(scene.materials.size(), 2u);
   EXPECT_TRUE(scene.materials[0].isDispersive());
   EXPECT_EQ(scene.materials[0].attenuationDistance, 0.5f);
+  EXPECT_EQ(scene.materials[0].scattering, vec3(0.2f));
+  EXPECT_EQ(scene.materials[0].phase, PhaseType::henyeyGreenstein);
+  EXPECT_EQ(scene.materials[0].g, 0.7f);
   EXPECT_EQ(scene.materials[1].type, MaterialType::mirror);
   ASSERT_EQ(scene.objects.size(), 2u);
   EXPECT_TRUE(scene.isCaster(scene.objects[0]));
@@ -174,6 +180,8 @@ TEST_F(SceneFile, ValuesOutOfRangeAreRefused) {
            std::string("[[material]]\nname = \"g\"\ntype = \"dielectric\"\nior = 0\n"),
            std::string("[[material]]\nname = \"g\"\ntype = \"dielectric\"\nior = [1.5, 1.5, -1]\n"),
            std::string("[[material]]\nname = \"g\"\ntype = \"dielectric\"\nattenuation_color = [1, 1, 1]\n"),
+           std::string("[[material]]\nname = \"g\"\ntype = \"dielectric\"\nphase = \"isotropic\"\n"),
+           std::string("[[material]]\nname = \"g\"\ntype = \"dielectric\"\nscattering = -1\n"),
            std::string("[[material]]\nname = \"g\"\ntype = \"diffuse\"\ncolor = [1, 2, 1]\n"),
            std::string("[[material]]\ntype = \"diffuse\"\n"),
            std::string("[[material]]\nname = \"g\"\n"),

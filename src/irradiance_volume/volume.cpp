@@ -28,6 +28,7 @@ uint64_t hashOf(const Material& material) {
   addVector(hasher, material.ior);
   hasher.add(material.inverseAttenuationDistance());
   if (material.inverseAttenuationDistance() > 0) addVector(hasher, material.attenuationColor);
+  if (material.scattering != vec3(0)) addVector(hasher, material.scattering);
   return hasher.value();
 }
 
@@ -61,6 +62,7 @@ SampleView viewOf(VolumeSample sample) {
 Material materialInOwnSpace(const Material& material, float scale) {
   Material scaled = material;
   scaled.attenuationDistance /= scale;
+  scaled.scattering *= scale;
   return scaled;
 }
 

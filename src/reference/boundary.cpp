@@ -9,12 +9,6 @@
 namespace nephroid {
 namespace {
 
-// -ln of the colour left, over the distance.
-vec3 extinctionOf(const Material& material) {
-  if (material.type != MaterialType::dielectric || material.thinWalled) return vec3(0);
-  return -glm::log(glm::max(material.attenuationColor, vec3(1e-30f))) * material.inverseAttenuationDistance();
-}
-
 // The geometric normal on the side a path comes from, and the smooth one where it is on that side too.
 struct Facing {
   vec3 geometric;
@@ -121,6 +115,25 @@ vec3 Boundaries::transmittance(uint32_t object, vec3 from, vec3 direction, float
   const vec3 extinction = extinctions[object];
   if (extinction == vec3(0)) return vec3(1);
   return glm::exp(-extinction * length);
+}
+
+bool Boundaries::isScattering(uint32_t object) const {
+  return object == kNone ? air && scatters(*air) : scatters(*materials[object]);
+}
+
+vec3 Boundaries::scattering(uint32_t object, vec3 point) const {
+  return object == kNone ? vec3(scatteringAt(*air, point)) : materials[object]->scattering;
+}
+
+float Boundaries::phase(uint32_t object, float cosine) const {
+  if (object == kNone) return phaseOf(*air, cosine);
+  return phaseFunction(phaseCode(materials[object]->phase), materials[object]->g, cosine);
+}
+
+float Boundaries::meanExtinction(uint32_t object) const {
+  if (object == kNone) return air ? air->extinction : 0;
+  const vec3& extinction = extinctions[object];
+  return (extinction.x + extinction.y + extinction.z) / 3;
 }
 
 MediumStack Boundaries::mediaAround(vec3 point) const {

@@ -37,6 +37,14 @@ class Boundaries {
   // lets through along unit `direction`.
   vec3 transmittance(uint32_t object, vec3 from, vec3 direction, float length) const;
 
+  // How an object's material, or the air, scatters: 1/m at a point, and 1/sr by the cosine between the ways
+  // light travels before and after.
+  bool isScattering(uint32_t object) const;
+  vec3 scattering(uint32_t object, vec3 point) const;
+  float phase(uint32_t object, float cosine) const;
+  // 1/m, of the channels; of the air where it is densest.
+  float meanExtinction(uint32_t object) const;
+
   bool isCaster(const Hit& hit) const { return materials[hit.object]->isCaster(); }
   const Material& materialOf(const Hit& hit) const { return *materials[hit.object]; }
   MediumStack mediaAround(vec3 point) const;

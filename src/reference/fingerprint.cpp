@@ -30,7 +30,8 @@ class SceneHasher {
 
 void add(SceneHasher& hasher, const Material& m) {
   hasher.add(static_cast<uint32_t>(m.type), m.color, m.colorTexture, m.emission, m.ior, m.dispersion,
-             m.attenuationColor, m.attenuationDistance, uint32_t{m.thinWalled});
+             m.attenuationColor, m.attenuationDistance, m.scattering, static_cast<uint32_t>(m.phase), m.g,
+             uint32_t{m.thinWalled});
 }
 
 void add(SceneHasher& hasher, const Light& l) {

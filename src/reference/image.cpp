@@ -2,14 +2,12 @@
 
 #include <cmath>
 
-#include "scene/air.h"
-
 namespace nephroid {
 namespace {
 
-constexpr float kFirstRadius = 2;        // pixels, of the first pass, on surfaces
-constexpr float kFirstRadiusInAir = 10;  // pixels
-constexpr float kShrinking = 2.0f / 3;   // alpha of Knaus and Zwicker 2011, eq. 15
+constexpr float kFirstRadius = 2;            // pixels, of the first pass, on surfaces
+constexpr float kFirstRadiusInVolumes = 10;  // pixels
+constexpr float kShrinking = 2.0f / 3;       // alpha of Knaus and Zwicker 2011, eq. 15
 
 // What is left of the first pass's area or volume in the pass of an index from 0.
 float kernelLeft(uint32_t pass) {
@@ -51,20 +49,19 @@ ReferenceImage::ReferenceImage(const Scene& sceneToSee, const RayScene& rays,
 PassLight ReferenceImage::traceLight(std::vector<Splat>& splats) const {
   const PhotonPass pass = photonPass(scene, settings.spectrum, settings.seed, passesDone, settings.photons);
   KeeperSettings keeping{&scene, &boundaries, &camera, &pass.bands, mediaOfCamera.top()};
-  keeping.keepsAir = scene.medium && scatters(*scene.medium);
   keeping.splats = settings.seenDirectly == SeenDirectly::splatted;
   FluxLedger ledger;
   std::vector<PhotonKeeper> groups = tracePass(tracer, pass, PhotonKeeper(keeping), ledger);
   splats = joined(groups, &PhotonKeeper::splats);
   const float left = kernelLeft(passesDone);
   const float surfaceRadius = kFirstRadius * camera.pixelHeight() * std::sqrt(left);
-  const float airRadius = kFirstRadiusInAir * camera.pixelHeight() * std::cbrt(left);
+  const float volumeRadius = kFirstRadiusInVolumes * camera.pixelHeight() * std::cbrt(left);
   const float middle = distance(scene.camera.target, scene.camera.position);  // m
   return {pass.bands,
           PhotonMap(joined(groups, &PhotonKeeper::onSurfaces), 2 * surfaceRadius * middle),
-          PhotonMap(joined(groups, &PhotonKeeper::inAir), 2 * airRadius * middle),
+          PhotonMap(joined(groups, &PhotonKeeper::inVolumes), 2 * volumeRadius * middle),
           surfaceRadius,
-          airRadius,
+          volumeRadius,
           3 * surfaceRadius * middle,
           keeping.splats};
 }
@@ -73,7 +70,7 @@ void ReferenceImage::pass() {
   std::vector<Splat> splats;
   const PassLight light = traceLight(splats);
   const std::size_t pixels = std::size_t(settings.size.x) * settings.size.y;
-  std::vector<vec3> all(pixels), straight(pixels), fromCasters(pixels), inAir(pixels);
+  std::vector<vec3> all(pixels), straight(pixels), fromCasters(pixels), scattered(pixels);
   oneapi::tbb::parallel_for(0u, settings.size.y, [&](uint32_t row) {
     for (uint32_t column = 0; column < settings.size.x; ++column) {
       const std::size_t i = std::size_t(row) * settings.size.x + column;
@@ -82,19 +79,19 @@ void ReferenceImage::pass() {
       const Seen seen = sight.look(camera.rayThrough(pixel), mediaOfCamera, light, random);
       straight[i] = seen.direct;
       fromCasters[i] = seen.caustics;
-      inAir[i] = seen.shafts;
+      scattered[i] = seen.shafts;
       all[i] = seen.direct + seen.caustics + seen.shafts + seen.rest;
     }
   });
   for (const Splat& splat : splats) {
-    (splat.isInAir ? inAir : fromCasters)[splat.pixel] += splat.luminance;
+    (splat.isScattered ? scattered : fromCasters)[splat.pixel] += splat.luminance;
     all[splat.pixel] += splat.luminance;
   }
   ++passesDone;
   total.add(all, passesDone);
   direct.add(straight, passesDone);
   caustics.add(fromCasters, passesDone);
-  shafts.add(inAir, passesDone);
+  shafts.add(scattered, passesDone);
 }
 
 double ReferenceImage::noise() const {

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "reference/sight.h"
-#include "scene/air.h"
 
 namespace nephroid {
 namespace {
 
-constexpr uint32_t kPlacesInAir = 4;  // of a segment, at which it is seen
+constexpr uint32_t kPlaces = 4;  // of a segment, at which it is seen
 
 StoredPhoton stored(const PhotonSegment& segment, vec3 flux) {
   StoredPhoton photon;
@@ -22,23 +21,23 @@ StoredPhoton stored(const PhotonSegment& segment, vec3 flux) {
 }  // namespace
 
 void PhotonKeeper::segment(const PhotonSegment& segment) {
-  if (!settings.keepsAir || !segment.metCaster || !segment.isInAir()) return;
-  const Medium& medium = *settings.scene->medium;
-  const float extinction = segment.isWeakened ? medium.extinction : 0;
-  for (uint32_t i = 0; i < kPlacesInAir; ++i) {
+  const Boundaries& boundaries = *settings.boundaries;
+  if (!segment.metCaster || !boundaries.isScattering(segment.medium)) return;
+  const float extinction = segment.isWeakened ? boundaries.meanExtinction(segment.medium) : 0;
+  for (uint32_t i = 0; i < kPlaces; ++i) {
     const DistanceSample sample =
-        sampleExtinction((float(i) + segment.sample) / float(kPlacesInAir), extinction, segment.length);
+        sampleExtinction((float(i) + segment.sample) / float(kPlaces), extinction, segment.length);
     StoredPhoton photon = stored(segment, segment.flux);
     photon.position = segment.ray.origin + sample.distance * segment.ray.direction;
-    photon.flux *=
-        segment.transmittance(*settings.boundaries, sample.distance) / (sample.density * float(kPlacesInAir));
+    photon.flux *= segment.transmittance(boundaries, sample.distance) / (sample.density * float(kPlaces));
     photon.direction = segment.ray.direction;
-    inAir.push_back(photon);
-    if (!settings.splats) continue;
+    photon.object = segment.medium;
+    inVolumes.push_back(photon);
+    if (!settings.splats || segment.medium != settings.mediumOfCamera) continue;
     const auto seen = settings.camera->project(photon.position);
     if (!seen) continue;
-    const float scattered =
-        scatteringAt(medium, photon.position) * phaseOf(medium, dot(photon.direction, seen->direction));
+    const vec3 scattered = boundaries.scattering(segment.medium, photon.position) *
+                           boundaries.phase(segment.medium, dot(photon.direction, seen->direction));
     splat(segment, photon.position, photon.flux * scattered, true, *seen);
   }
 }
@@ -62,17 +61,17 @@ void PhotonKeeper::landing(const PhotonSegment& segment, const Hit& hit, vec3 fl
 }
 
 // `reflected`: cd toward the camera.
-void PhotonKeeper::splat(const PhotonSegment& segment, vec3 place, vec3 reflected, bool isInAir,
+void PhotonKeeper::splat(const PhotonSegment& segment, vec3 place, vec3 reflected, bool isScattered,
                          const Pinhole::Projection& seen) {
   if (reflected == vec3(0)) return;
   const RayScene& rays = settings.boundaries->rayScene();
   const float margin = rays.selfIntersectionDistance();
-  if (rays.occluded({place, seen.direction, isInAir ? 0 : margin, seen.distance})) return;
+  if (rays.occluded({place, seen.direction, isScattered ? 0 : margin, seen.distance})) return;
   vec3 luminance = reflected * (seen.perSteradian / (seen.distance * seen.distance));
   luminance *=
       settings.boundaries->transmittance(settings.mediumOfCamera, place, seen.direction, seen.distance);
   if (segment.isDispersed) luminance *= (*settings.bands)[segment.band].weight;
-  splats.push_back({seen.pixel, isInAir, luminance});
+  splats.push_back({seen.pixel, isScattered, luminance});
 }
 
 }  // namespace nephroid

@@ -11,7 +11,7 @@ namespace nephroid {
 // Luminance (nit) that a photon adds to a pixel.
 struct Splat {
   uint32_t pixel = 0;
-  bool isInAir = false;
+  bool isScattered = false;
   vec3 luminance{0};
 };
 
@@ -21,7 +21,6 @@ struct KeeperSettings {
   const Pinhole* camera = nullptr;
   const std::vector<Band>* bands = nullptr;
   uint32_t mediumOfCamera = kNone;  // the object it is inside of
-  bool keepsAir = false;            // the air scatters
   bool splats = true;
 };
 
@@ -31,11 +30,11 @@ class PhotonKeeper final : public PhotonVisitor {
   void segment(const PhotonSegment& segment) override;
   void landing(const PhotonSegment& segment, const Hit& hit, vec3 flux) override;
 
-  std::vector<StoredPhoton> onSurfaces, inAir;
+  std::vector<StoredPhoton> onSurfaces, inVolumes;
   std::vector<Splat> splats;
 
  private:
-  void splat(const PhotonSegment& segment, vec3 place, vec3 reflected, bool isInAir,
+  void splat(const PhotonSegment& segment, vec3 place, vec3 reflected, bool isScattered,
              const Pinhole::Projection& seen);
 
   KeeperSettings settings;

@@ -11,9 +11,9 @@ namespace nephroid {
 
 struct StoredPhoton {
   vec3 position{0};   // m
-  vec3 flux{0};       // lm on a surface; lm m in the air; the band's weight not counted
-  vec3 direction{0};  // unit: of a surface the normal on the lit side, in the air the way the photon travels
-  uint32_t object = 0;
+  vec3 flux{0};       // lm on a surface; lm m in a volume; the band's weight not counted
+  vec3 direction{0};  // unit: of a surface the normal on the lit side, in a volume the way the photon travels
+  uint32_t object = 0;  // it is on or in; kNone: the air
   uint16_t band = 0;
   bool isDispersed = false;
 };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/air.h"
-
 namespace nephroid {
 namespace {
 
@@ -70,7 +68,7 @@ Seen Sight::look(const Ray& ray, const MediumStack& media, const PassLight& ligh
   for (uint32_t encounter = 0; encounter < kMostEncounters; ++encounter) {
     const bool isHit = boundaries.rayScene().intersect(view.ray, hit);
     const float length = isHit ? hit.distance : std::numeric_limits<float>::infinity();
-    if (scene.medium && view.path.media.top() == kNone) seen.shafts += scattered(view, length, light, random);
+    if (boundaries.isScattering(view.path.media.top())) seen.shafts += scattered(view, length, light, random);
     view.path.throughput *=
         boundaries.transmittance(view.path.media.top(), view.ray.origin, view.ray.direction, length);
     if (!isHit) {
@@ -120,9 +118,8 @@ vec3 Sight::gather(const View& view, const Hit& hit, vec3 normal, const PassLigh
   return sum * (2 / (kPi * radius * radius));
 }
 
-// Light scattered once, in the air of the ray's next `length` (m).
+// Light scattered once, in what the ray's next `length` (m) goes through.
 vec3 Sight::scattered(const View& view, float length, const PassLight& light, Random& random) const {
-  if (!scatters(*scene.medium)) return vec3(0);
   vec3 sum(0);
   for (uint32_t source = 0; source < lights.count(); ++source)
     sum += view.weight(light) * scatteredFromLight(view, length, source, random);
@@ -132,7 +129,8 @@ vec3 Sight::scattered(const View& view, float length, const PassLight& light, Ra
 }
 
 vec3 Sight::scatteredFromLight(const View& view, float length, uint32_t source, Random& random) const {
-  const float extinction = scene.medium->extinction;
+  const uint32_t medium = view.path.media.top();
+  const float extinction = boundaries.meanExtinction(medium);
   const float along = random.uniform();
   const float u = random.uniform();
   const bool isFromAfar = lights.comesFromAfar(source);
@@ -143,38 +141,39 @@ vec3 Sight::scatteredFromLight(const View& view, float length, uint32_t source, 
   const Illumination illumination = lights.illumination(source, point, along);
   if (illumination.illuminance == vec3(0) || !(sample.density > 0)) return vec3(0);
   if (!isLit(boundaries.rayScene(), illumination, point, 0)) return vec3(0);
-  const Medium& air = *scene.medium;
-  float depth = opticalDepth(air, view.ray.origin, view.ray.direction, sample.distance);
-  if (!isFromAfar) depth += opticalDepth(air, point, -illumination.direction, illumination.distance);
-  return illumination.illuminance * phaseOf(air, -dot(illumination.direction, view.ray.direction)) *
-         scatteringAt(air, point) * std::exp(-depth) / sample.density;
+  vec3 left = boundaries.transmittance(medium, view.ray.origin, view.ray.direction, sample.distance);
+  if (!isFromAfar)
+    left *= boundaries.transmittance(medium, point, -illumination.direction, illumination.distance);
+  return illumination.illuminance * left * boundaries.scattering(medium, point) *
+         (boundaries.phase(medium, -dot(illumination.direction, view.ray.direction)) / sample.density);
 }
 
 // By the photons in balls around a few places, each in a part of its own of what photons can be near.
 vec3 Sight::scatteredFromCasters(const View& view, float length, const PassLight& light,
                                  Random& random) const {
   constexpr uint32_t kPlaces = 4;
-  const float extinction = scene.medium->extinction;
+  const uint32_t medium = view.path.media.top();
+  const float extinction = boundaries.meanExtinction(medium);
   const float largest = 3 * light.largestRadius;
-  const vec2 part = light.inAir.reach(view.ray.origin, view.ray.direction, length, largest);
+  const vec2 part = light.inVolumes.reach(view.ray.origin, view.ray.direction, length, largest);
   vec3 sum(0);
   if (!(part.y > part.x)) return sum;
   for (uint32_t i = 0; i < kPlaces; ++i) {
     const DistanceSample sample =
         sampleExtinction((float(i) + random.uniform()) / float(kPlaces), extinction, part.y - part.x);
     const float distance = part.x + sample.distance;
-    const float radius = std::min(light.airRadius * (view.travelled + distance), largest);
+    const float radius = std::min(light.volumeRadius * (view.travelled + distance), largest);
     const vec3 point = view.ray.origin + distance * view.ray.direction;
     vec3 near(0);
-    light.inAir.around(point, radius, [&](const StoredPhoton& photon, float squared) {
+    light.inVolumes.around(point, radius, [&](const StoredPhoton& photon, float squared) {
+      if (photon.object != medium) return;
       near += fluxInBand(photon, view.path.isDispersed, view.band, light.bands) *
-              (phaseOf(*scene.medium, -dot(photon.direction, view.ray.direction)) *
+              (boundaries.phase(medium, -dot(photon.direction, view.ray.direction)) *
                (1 - squared / (radius * radius)));
     });
     const float kernel = 15 / (8 * kPi * radius * radius * radius);  // 1/m3
-    const Medium& air = *scene.medium;
-    const float left = std::exp(-opticalDepth(air, view.ray.origin, view.ray.direction, distance));
-    sum += near * (kernel * scatteringAt(air, point) * left / (sample.density * float(kPlaces)));
+    const vec3 left = boundaries.transmittance(medium, view.ray.origin, view.ray.direction, distance);
+    sum += near * boundaries.scattering(medium, point) * left * (kernel / (sample.density * float(kPlaces)));
   }
   return sum;
 }

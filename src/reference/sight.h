@@ -1,4 +1,4 @@
-// What is seen along a line of sight, through and in casters, and in the air on the way.
+// What is seen along a line of sight, through and in casters, and in what it goes through on the way.
 #pragma once
 
 #include "reference/direct.h"
@@ -8,7 +8,8 @@
 namespace nephroid {
 
 // nit, by where the light had been: direct met no caster, caustics at least one, shafts was scattered in the
-// air; rest is the background, what shines by itself and what is reflected of ambient light.
+// air or in a caster's volume; rest is the background, what shines by itself and what is reflected of ambient
+// light.
 struct Seen {
   vec3 direct{0};
   vec3 caustics{0};
@@ -20,9 +21,9 @@ struct Seen {
 struct PassLight {
   std::vector<Band> bands;
   PhotonMap onSurfaces;
-  PhotonMap inAir;
+  PhotonMap inVolumes;
   float surfaceRadius = 0;  // part of the distance travelled, around a place that is seen
-  float airRadius = 0;
+  float volumeRadius = 0;
   float largestRadius = 0;  // m
   bool isSplatted = false;  // where it is seen directly, and is not to be gathered there
 };

@@ -6,6 +6,7 @@
 #include "core/stopwatch.h"
 #include "gpu/transfer.h"
 #include "render/frame_data.h"
+#include "scene/volume.h"
 
 namespace nephroid {
 namespace {
@@ -43,6 +44,12 @@ uint32_t shadowMapSizeOf(const RenderSettings& settings) {
   return settings.shadowMapSize > 0 ? settings.shadowMapSize : std::max(settings.size.x, settings.size.y);
 }
 
+bool hasTurbidWater(const Scene& scene) {
+  return std::ranges::any_of(scene.objects, [&](const Object& object) {
+    return object.water && extinctionOf(scene.materialOf(object)) != vec3(0);
+  });
+}
+
 bool hasEmission(const Scene& scene) {
   return std::ranges::any_of(scene.materials,
                              [](const Material& material) { return material.emission != vec3(0); });
@@ -64,9 +71,10 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       transport_(transport),
       technique_(technique),
       settings_(settings),
+      hasTurbidWater_(hasTurbidWater(transport.scene())),
       gpuScene_(device, transport.scene()),
-      programs_(createFramePrograms(device,
-                                    {hasEmission(transport.scene()), transport.scene().medium.has_value()})),
+      programs_(createFramePrograms(
+          device, {hasEmission(transport.scene()), transport.scene().medium.has_value(), hasTurbidWater_})),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
       sight_(device, settings.sight),
       directLight_(device, transport.scene(), shadowMapSizeOf(settings)),
@@ -123,10 +131,20 @@ void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
 
 // What the frame has found is lit, and put together.
 void Renderer::illuminate(gpu::CommandList& commands) {
+  if (hasTurbidWater_) {
+    commands.clear(images_.wayStart, vec4(0));
+    commands.clear(images_.scattered, vec4(0));
+  }
   light(commands, images_.seen, std::nullopt);
   if (sight_.reflects()) light(commands, images_.reflected, sight_.region());
   if (sight_.disperses())
     for (const SeenImages& seen : images_.dispersed) light(commands, seen, sight_.region());
+  for (const WaterInSight& water : sight_.waters()) {
+    commands.pass("ways in water", [&] {
+      sight_.recordWays(commands, water, images_, images_.wayStart, images_.wayDirection);
+    });
+    technique_.scatter(commands, {&images_.wayStart, &images_.wayDirection, water.object}, images_.scattered);
+  }
   if (shafts_)
     commands.pass("shafts", [&] { shafts_.record(commands, directLight_, gpuScene_, images_.depth); });
   commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}); });
@@ -161,6 +179,9 @@ void Renderer::ensureImages() {
     images_.reflected = createSeenImages(device_, size.x, size.y);
   if (sight_.disperses() && !images_.dispersed[0].position)
     for (SeenImages& seen : images_.dispersed) seen = createSeenImages(device_, size.x, size.y);
+  if (hasTurbidWater_ && !images_.scattered)
+    for (gpu::Image* image : {&images_.wayStart, &images_.wayDirection, &images_.scattered})
+      *image = gpu::createImage(device_, "light in water", {.width = size.x, .height = size.y});
 }
 
 void Renderer::drawReceivers(gpu::CommandList& commands) {
@@ -198,18 +219,22 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
   const SeenImages& reflected = sight_.reflects() ? images_.reflected : seen;
   const SeenImages& green = sight_.disperses() ? images_.dispersed[0] : seen;
   const SeenImages& blue = sight_.disperses() ? images_.dispersed[1] : seen;
+  const bool isEyeInWater = !sight_.waters().empty() && sight_.waters().back().constants.kind == kWayFromEye;
+  const vec3 extinctionAtEye = isEyeInWater ? sight_.waters().back().extinction : vec3(0);
   const auto draw = [&](const CasterTraits& traits, const gpu::Region& region) {
     gpu::RenderTargets rendered;
     for (const gpu::Image* target : targets) rendered.colors.push_back({target, 0, std::nullopt});
     rendered.region = region;
     commands.render(rendered, [&] {
-      commands.draw(
-          programs.at(traits), 3, 1,
-          CompositeConstants{gpuScene_.materials(), environment_.ambient, environment_.background, exposure_},
-          {seen.albedo, seen.directLux, seen.causticsLux, seen.transmittance, reflected.albedo,
-           reflected.normal, reflected.directLux, reflected.causticsLux, green.albedo, green.directLux,
-           green.causticsLux, green.transmittance, blue.albedo, blue.directLux, blue.causticsLux,
-           blue.transmittance, shafts_ ? shafts_.image() : seen.albedo});
+      commands.draw(programs.at(traits), 3, 1,
+                    CompositeConstants{gpuScene_.materials(), environment_.ambient, environment_.background,
+                                       exposure_, extinctionAtEye},
+                    {seen.albedo, seen.directLux, seen.causticsLux, seen.transmittance, reflected.albedo,
+                     reflected.normal, reflected.directLux, reflected.causticsLux, green.albedo,
+                     green.directLux, green.causticsLux, green.transmittance, blue.albedo, blue.directLux,
+                     blue.causticsLux, blue.transmittance, shafts_ ? shafts_.image() : seen.albedo,
+                     hasTurbidWater_ ? images_.wayStart : seen.albedo,
+                     hasTurbidWater_ ? images_.scattered : seen.albedo});
     });
   };
   draw({}, {{0, 0}, settings_.size});
@@ -246,6 +271,8 @@ std::vector<PassOutput> Renderer::outputs() const {
                            {"reflected by casters", "normals", &images_.reflected.normal, kShowDirection}});
   all.insert(all.end(), {{"direct light", "lux", &seen.directLux, kShowLight, exposure},
                          {"caustics", "lux", &seen.causticsLux, kShowLight, exposure}});
+  if (hasTurbidWater_)
+    all.push_back({"light in water", "luminance", &images_.scattered, kShowLight, exposure_});
   if (shafts_) all.push_back({"shafts", "luminance", &shafts_.image(), kShowLight, exposure_});
   all.push_back({"composite", "picture", &images_.picture, kShowPicture});
   return all;
@@ -263,6 +290,16 @@ void writeChannels(Image& layers, const std::string& prefix, std::string_view na
 
 }  // namespace
 
+std::vector<vec4> Renderer::shaftsLuminance() const {
+  const std::size_t pixels = std::size_t{settings_.size.x} * settings_.size.y;
+  std::vector<vec4> luminance =
+      shafts_ ? gpu::download<vec4>(device_, shafts_.image()) : std::vector<vec4>(pixels, vec4(0, 0, 0, 1));
+  if (!hasTurbidWater_) return luminance;
+  const auto inWater = gpu::download<vec4>(device_, images_.scattered);
+  for (std::size_t i = 0; i < pixels; ++i) luminance[i] += luminance[i].a * inWater[i];
+  return luminance;
+}
+
 Image Renderer::layers() {
   device_.submitAndWait([&](gpu::CommandList& commands) {
     commands.pass("layers", [&] {
@@ -276,9 +313,7 @@ Image Renderer::layers() {
   writeChannels(layers, "", "RGB", gpu::download<vec4>(device_, images_.luminance));
   writeChannels(layers, "direct.", "RGB", gpu::download<vec4>(device_, images_.directLuminance));
   writeChannels(layers, "caustics.", "RGB", gpu::download<vec4>(device_, images_.causticsLuminance));
-  const std::size_t pixels = std::size_t{settings_.size.x} * settings_.size.y;
-  writeChannels(layers, "shafts.", "RGB",
-                shafts_ ? gpu::download<vec4>(device_, shafts_.image()) : std::vector<vec4>(pixels, vec4(0)));
+  writeChannels(layers, "shafts.", "RGB", shaftsLuminance());
 
   auto normals = gpu::download<vec4>(device_, images_.seen.normal);
   const auto casterNormals = gpu::download<vec4>(device_, images_.casterNormal);

@@ -54,8 +54,8 @@ class Renderer {
   ByteImage picture() const;
 
   // Of the last frame: R,G,B luminance (nit); direct.R,G,B and caustics.R,G,B, the parts of it that came from
-  // light that met no caster and from light that met one; shafts.R,G,B, that from the air; depth.Z (m along
-  // the view, 0 where there is nothing) and normal.X,Y,Z of the nearest surface.
+  // light that met no caster and from light that met one; shafts.R,G,B, that from the air and from water;
+  // depth.Z (m along the view, 0 where there is nothing) and normal.X,Y,Z of the nearest surface.
   Image layers();
 
   // Of the last frame, as passes left them.
@@ -77,11 +77,13 @@ class Renderer {
   void composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
                  const std::vector<const gpu::Image*>& targets);
   void ensureImages();
+  std::vector<vec4> shaftsLuminance() const;
 
   gpu::Device& device_;
   SceneTransport& transport_;
   Technique& technique_;
   RenderSettings settings_;
+  bool hasTurbidWater_ = false;  // takes of light
   GpuScene gpuScene_;
   FramePrograms programs_;
   FrameImages images_;

@@ -53,6 +53,7 @@ struct CompositeConstants {
   vec3 ambient;     // lux
   vec3 background;  // nit
   float exposure;
+  vec3 extinctionAtEye;  // 1/m, of the water that the eye is in
 };
 
 SHARED_END

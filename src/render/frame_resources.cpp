@@ -51,11 +51,9 @@ FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& lu
                                                        shaders::receiver_frag, receiver, {{0, VK_TRUE}});
   for (const CasterTraits traits : {CasterTraits{false, false, false}, CasterTraits{true, false, false},
                                     CasterTraits{true, true, false}, CasterTraits{true, true, true}}) {
-    const std::vector<gpu::SpecializationConstant> choices{{0, luminance.hasEmission},
-                                                           {1, traits.areSeen},
-                                                           {2, traits.reflect},
-                                                           {3, traits.disperse},
-                                                           {4, luminance.hasAir}};
+    const std::vector<gpu::SpecializationConstant> choices{
+        {0, luminance.hasEmission}, {1, traits.areSeen},   {2, traits.reflect},
+        {3, traits.disperse},       {4, luminance.hasAir}, {5, luminance.hasTurbidWater}};
     programs.picture[traits] =
         gpu::createRasterProgram(device, "picture", shaders::whole_picture_vert, shaders::picture_frag,
                                  {.colors = {{kBytes}}}, choices);

@@ -29,6 +29,9 @@ struct FrameImages {
   // On the side of the viewer, a = 1 where a caster is in front of the receiver, -1 where that is its inside;
   // kept only where casters may be.
   gpu::Image casterNormal;
+  // Where water takes of what is seen, made when that is first so: ways of sight in it, and what it scatters
+  // along them (nit).
+  gpu::Image wayStart, wayDirection, scattered;
   gpu::Image luminance;          // nit; filled for layers only
   gpu::Image directLuminance;    // nit; filled for layers only
   gpu::Image causticsLuminance;  // nit; filled for layers only
@@ -59,6 +62,7 @@ struct FramePrograms {
 struct LuminanceTraits {
   bool hasEmission = false;
   bool hasAir = false;
+  bool hasTurbidWater = false;  // takes of light
 };
 
 FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& luminance);

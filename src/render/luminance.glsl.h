@@ -10,6 +10,7 @@ layout(constant_id = 1) const bool kSeesCasters = false;  // may one be in front
 layout(constant_id = 2) const bool kReflects = false;     // with kSeesCasters: may glass reflect something
 layout(constant_id = 3) const bool kDisperses = false;    // with kSeesCasters
 layout(constant_id = 4) const bool kHasAir = false;
+layout(constant_id = 5) const bool kHasTurbidWater = false;
 layout(push_constant, scalar) uniform Constants {
   CompositeConstants constants;
 };
@@ -31,6 +32,9 @@ layout(set = 0, binding = 14) uniform texture2D blueCausticsLux;
 layout(set = 0, binding = 15) uniform texture2D blueThroughCaster;
 // With kHasAir: luminance of the air, and a the part of what is behind it that it lets through.
 layout(set = 0, binding = 16) uniform texture2D shafts;
+// With kHasTurbidWater: ways of sight in water, and what that scatters along them (nit).
+layout(set = 0, binding = 17) uniform texture2D wayStart;
+layout(set = 0, binding = 18) uniform texture2D scattered;
 
 const float kInversePi = 0.318309886;
 
@@ -54,13 +58,22 @@ void add(inout Luminance sum, vec3 factor, Luminance other) {
   sum.rest += factor * other.rest;
 }
 
+// Past the water that the eye is in, as far as the nearest surface.
+vec3 leftByWater(ivec2 pixel) {
+  return kHasTurbidWater ? exp(-constants.extinctionAtEye * texelFetch(wayStart, pixel, 0).a) : vec3(1);
+}
+
+Luminance dimmed(vec3 factor, Luminance seen) {
+  return Luminance(factor * seen.direct, factor * seen.caustics, factor * seen.rest);
+}
+
 Luminance surfaceAt(ivec2 pixel) {
   Luminance seen = luminanceOf(texelFetch(receiverAlbedo, pixel, 0), texelFetch(directLux, pixel, 0).rgb,
                                texelFetch(causticsLux, pixel, 0).rgb);
-  if (!kSeesCasters) return seen;
+  if (!kSeesCasters) return dimmed(leftByWater(pixel), seen);
   const vec4 through = texelFetch(throughCaster, pixel, 0);
   const uint marks = uint(through.a);
-  if (marks == 0) return seen;
+  if (marks == 0) return dimmed(leftByWater(pixel), seen);
   Luminance sum = Luminance(vec3(0), vec3(0), vec3(0));
   if (kDisperses && (marks & kSightDisperses) != 0) {
     add(sum, vec3(through.r, 0, 0), seen);
@@ -74,7 +87,7 @@ Luminance surfaceAt(ivec2 pixel) {
     add(sum, through.rgb, seen);
   }
   if (kReflects)
-    add(sum, vec3(texelFetch(reflectedNormal, pixel, 0).a),
+    add(sum, texelFetch(reflectedNormal, pixel, 0).a * leftByWater(pixel),
         luminanceOf(texelFetch(reflectedAlbedo, pixel, 0), texelFetch(reflectedDirectLux, pixel, 0).rgb,
                     texelFetch(reflectedCausticsLux, pixel, 0).rgb));
   return sum;
@@ -82,8 +95,11 @@ Luminance surfaceAt(ivec2 pixel) {
 
 // Dobashi 2002, eq. 1.
 Luminance luminanceAt(ivec2 pixel) {
-  const Luminance surface = surfaceAt(pixel);
+  Luminance surface = surfaceAt(pixel);
+  if (kHasTurbidWater) surface.rest += texelFetch(scattered, pixel, 0).rgb;
   if (!kHasAir) return surface;
   const vec4 air = texelFetch(shafts, pixel, 0);
-  return Luminance(air.a * surface.direct, air.a * surface.caustics, air.a * surface.rest + air.rgb);
+  surface = dimmed(vec3(air.a), surface);
+  surface.rest += air.rgb;
+  return surface;
 }

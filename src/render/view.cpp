@@ -1,6 +1,7 @@
 #include "render/view.h"
 
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
@@ -26,6 +27,13 @@ View viewOf(const Camera& camera, uvec2 size) {
   projection[3][2] = view.nearest;
   view.worldToClip = projection * glm::lookAtRH(camera.position, camera.target, up);
   return view;
+}
+
+// x and y of clip space are the parts of a ray along two rows of the projection, which stand on each other
+// and on the view.
+PictureRays raysOf(const View& view) {
+  const vec3 x(glm::row(view.worldToClip, 0)), y(glm::row(view.worldToClip, 1));
+  return {view.forward, x / dot(x, x), y / dot(y, y)};
 }
 
 gpu::Region regionOf(const View& view, uvec2 size, const std::array<vec3, 8>& corners) {

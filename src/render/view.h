@@ -24,6 +24,13 @@ vec3 uprightFor(const Camera& camera, vec3 forward);
 // Sees infinitely far, and as near as a ten-thousandth of the distance to what is looked at.
 View viewOf(const Camera& camera, uvec2 size);
 
+// A ray of sight at the place (x, y) of clip space goes along middle + x * right + y * down, whose part along
+// the view is 1.
+struct PictureRays {
+  vec3 middle, right, down;
+};
+PictureRays raysOf(const View& view);
+
 // The pixels that a box with these corners (m, world space) may cover; of no size where there are none.
 gpu::Region regionOf(const View& view, uvec2 size, const std::array<vec3, 8>& corners);
 

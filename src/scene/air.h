@@ -6,9 +6,9 @@
 
 #include "optics/air.h"
 #include "optics/emitter.h"
-#include "optics/phase.h"
 #include "scene/density_grid.h"
 #include "scene/scene.h"
+#include "scene/volume.h"
 
 namespace nephroid {
 
@@ -17,21 +17,9 @@ inline Air airOf(const Medium& medium) {
   return {medium.extinction, medium.albedo, medium.g, medium.fogBase, inverseFogHeight};
 }
 
-// kPhase...
-inline uint phaseCode(const Medium& medium) {
-  switch (medium.phase) {
-    case PhaseType::henyeyGreenstein:
-      return kPhaseHenyeyGreenstein;
-    case PhaseType::nishita:
-      return kPhaseNishita;
-    default:
-      return kPhaseIsotropic;
-  }
-}
-
 // 1/sr; `cosine` between the ways light travels before and after.
 inline float phaseOf(const Medium& medium, float cosine) {
-  return phaseFunction(phaseCode(medium), medium.g, cosine);
+  return phaseFunction(phaseCode(medium.phase), medium.g, cosine);
 }
 
 inline bool scatters(const Medium& medium) {

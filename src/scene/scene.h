@@ -38,6 +38,8 @@ struct Texture {
   std::vector<vec4> texels;
 };
 
+enum class PhaseType { isotropic, henyeyGreenstein, nishita };
+
 enum class MaterialType { diffuse, dielectric, mirror };
 
 struct Material {
@@ -50,6 +52,9 @@ struct Material {
   float dispersion = 0;      // 20 / Abbe number (KHR_materials_dispersion); `ior` already follows from it
   vec3 attenuationColor{1};  // what is left after attenuationDistance
   float attenuationDistance = std::numeric_limits<float>::infinity();  // m
+  vec3 scattering{0};  // 1/m, in a dielectric's volume, besides what that absorbs
+  PhaseType phase = PhaseType::isotropic;
+  float g = 0;  // Henyey-Greenstein
   bool thinWalled =
       false;  // glTF transmission without a volume: light passes straight through, so no caustic
   bool isCaster() const { return type != MaterialType::diffuse; }
@@ -209,8 +214,6 @@ struct Profile {
   std::vector<float> fractions;         // of the peak, [horizontal * verticalAngles.size() + vertical]
   float peak = 0;                       // cd, above 0
 };
-
-enum class PhaseType { isotropic, henyeyGreenstein, nishita };
 
 // How dense the air is in a box, as a part of the most there may be: linear between the middles of its cells,
 // and 0 outside.

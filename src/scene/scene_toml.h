@@ -18,6 +18,8 @@ std::string readSceneFile(const std::filesystem::path& file);
 // The parts of it. Each adds to `scene` what its tables say.
 void readMaterials(std::vector<TomlTable> tables, Scene& scene);
 void readLights(std::vector<TomlTable> tables, Scene& scene);
+// The keys "phase" and "g" of what scatters light.
+void readPhase(TomlTable& table, PhaseType& phase, float& g);
 Medium readMedium(TomlTable table, const std::filesystem::path& folder);
 
 // As above; gives the first camera that was imported.

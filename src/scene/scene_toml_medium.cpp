@@ -64,15 +64,19 @@ void addFog(const Medium& medium, DensityGrid& grid) {
 
 }  // namespace
 
+void readPhase(TomlTable& table, PhaseType& phase, float& g) {
+  constexpr std::array kTypes{PhaseType::isotropic, PhaseType::henyeyGreenstein, PhaseType::nishita};
+  phase = kTypes[table.choice("phase", {"isotropic", "henyey-greenstein", "nishita"})];
+  if (phase == PhaseType::henyeyGreenstein) g = numberOr(table, "g", {-0.999, 0.999}, 0);
+}
+
 Medium readMedium(TomlTable table, const std::filesystem::path& folder) {
   Medium medium;
   const auto extinction = table.number("extinction", kNotNegative);
   if (!extinction) table.fail("extinction", "is missing; a medium needs it (1/m)");
   medium.extinction = static_cast<float>(*extinction);
   medium.albedo = numberOr(table, "albedo", kFraction, 1);
-  constexpr std::array kTypes{PhaseType::isotropic, PhaseType::henyeyGreenstein, PhaseType::nishita};
-  medium.phase = kTypes[table.choice("phase", {"isotropic", "henyey-greenstein", "nishita"})];
-  if (medium.phase == PhaseType::henyeyGreenstein) medium.g = numberOr(table, "g", {-0.999, 0.999}, 0);
+  readPhase(table, medium.phase, medium.g);
   medium.fogHeight = numberOr(table, "fog_height", kPositive, 0);
   if (medium.fogHeight > 0) medium.fogBase = numberOr(table, "fog_base", kAnyNumber, 0);
   if (auto noise = table.table("noise")) medium.grid = readNoise(std::move(*noise));

@@ -33,6 +33,12 @@ Material readDielectric(TomlTable& table) {
   if (color && !distance) table.fail("attenuation_color", "needs \"attenuation_distance\" (m) beside it");
   material.attenuationColor = color.value_or(material.attenuationColor);
   if (distance) material.attenuationDistance = static_cast<float>(*distance);
+  for (const char* key : {"phase", "g"})
+    if (table.has(key) && !table.has("scattering")) table.fail(key, "needs \"scattering\" (1/m) beside it");
+  if (const auto scattering = table.numberOrRgb("scattering", kNotNegative)) {
+    material.scattering = *scattering;
+    readPhase(table, material.phase, material.g);
+  }
   return material;
 }
 

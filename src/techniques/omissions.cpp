@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/volume.h"
+
 namespace nephroid {
 namespace {
 
@@ -47,6 +49,10 @@ bool hasWaterOrSheet(const Scene& scene) {
   return anyMaterial(scene, [](const Material& material) { return material.thinWalled; }) ||
          std::any_of(scene.objects.begin(), scene.objects.end(),
                      [](const Object& object) { return object.water.has_value(); });
+}
+
+bool hasScattering(const Scene& scene) {
+  return anyMaterial(scene, [](const Material& material) { return scatters(material); });
 }
 
 bool hasMediumAndCaster(const Scene& scene) {
@@ -99,17 +105,33 @@ constexpr Omission kSpectrum{
 constexpr Omission kDetail{
     "Detail between the rays of a caster's vertices, and finer than a texel of the virtual planes",
     hasCaster};
+constexpr Omission kScattering{"Light that water and glass scatter inside", hasScattering};
+
+constexpr Omission kOfIlluminationTextures[] = {
+    kReflection,
+    kSpectrum,
+    {"Light far from a caster's mean direction: what leaves it at more than 75 degrees from the mean, and "
+     "what reaches surfaces that another receiver hides along the mean or that face away from it",
+     hasCaster},
+    kDetail,
+    kScattering,
+};
+
+// By light volumes, of what scatters.
+constexpr Omission kScatteringAside{
+    "What glass scatters inside, and water of light that met no surface before; what water scatters, where "
+    "mirrors and other glass show it, and where its surface reflects a part of it",
+    hasScattering};
+
+std::span<const Omission> omissionsOfAutomatic() {
+  static constexpr Omission kOmissions[] = {kOfIlluminationTextures[0], kOfIlluminationTextures[1],
+                                            kOfIlluminationTextures[2], kOfIlluminationTextures[3],
+                                            kScatteringAside};
+  return kOmissions;
+}
 
 std::span<const Omission> omissionsOfIlluminationTextures() {
-  static constexpr Omission kOmissions[] = {
-      kReflection,
-      kSpectrum,
-      {"Light far from a caster's mean direction: what leaves it at more than 75 degrees from the mean, and "
-       "what reaches surfaces that another receiver hides along the mean or that face away from it",
-       hasCaster},
-      kDetail,
-  };
-  return kOmissions;
+  return kOfIlluminationTextures;
 }
 
 std::span<const Omission> omissionsOfSlicedImages() {
@@ -121,6 +143,7 @@ std::span<const Omission> omissionsOfSlicedImages() {
        hasCaster},
       {"With --interpolation blend, light that runs within 15 degrees along the sample planes", hasCaster},
       kDetail,
+      kScattering,
   };
   return kOmissions;
 }
@@ -139,6 +162,7 @@ std::span<const Omission> omissionsOfIrradianceVolumes() {
        hasDispersion},
       {"Water and sheets without a volume, which cast no caustics here", hasWaterOrSheet},
       {"Detail finer than a cell of the volume, and between the light directions it was made for", hasCaster},
+      kScattering,
   };
   return kOmissions;
 }
@@ -150,6 +174,7 @@ std::span<const Omission> omissionsOfLightVolumes() {
       {"Detail between the rays of a caster's vertices; where receivers hide each other from the light, "
        "that between beams",
        hasCaster},
+      kScatteringAside,
   };
   return kOmissions;
 }
@@ -157,6 +182,7 @@ std::span<const Omission> omissionsOfLightVolumes() {
 std::span<const Omission> omissionsOfNoCaustics() {
   static constexpr Omission kOmissions[] = {
       {"Caustics: light that met glass or a mirror is not drawn at all", hasCaster},
+      kScattering,
   };
   return kOmissions;
 }

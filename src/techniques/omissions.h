@@ -17,6 +17,7 @@ struct Omission {
 std::span<const Omission> omissionsOfFrame();
 
 // By the techniques, besides.
+std::span<const Omission> omissionsOfAutomatic();
 std::span<const Omission> omissionsOfIlluminationTextures();
 std::span<const Omission> omissionsOfIrradianceVolumes();
 std::span<const Omission> omissionsOfSlicedImages();

@@ -49,6 +49,9 @@ class Automatic final : public Technique {
              const gpu::Image& causticsLux) override {
     for (const auto& part : parts) part->shade(commands, points, causticsLux);
   }
+  void scatter(gpu::CommandList& commands, const WaysOfSight& ways, const gpu::Image& luminance) override {
+    for (const auto& part : parts) part->scatter(commands, ways, luminance);
+  }
   bool coversSquares() const override {
     return std::ranges::all_of(parts, [](const auto& part) { return part->coversSquares(); });
   }
@@ -77,7 +80,7 @@ constexpr TechniqueEntry kTechniques[] = {
      [](const TechniqueContext& context) -> std::unique_ptr<Technique> {
        return std::make_unique<Automatic>(context);
      },
-     omissionsOfIlluminationTextures},
+     omissionsOfAutomatic},
     {"illumination-textures", makeIlluminationTextures, omissionsOfIlluminationTextures},
     {"irradiance-volume", makeIrradianceVolumes, omissionsOfIrradianceVolumes},
     {"light-volumes", makeLightVolumes, omissionsOfLightVolumes},

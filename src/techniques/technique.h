@@ -19,6 +19,16 @@ struct ReceiverPoints {
   std::optional<gpu::Region> region{};   // of the images that is asked for; all of them without it
 };
 
+// Lines of sight through the volume of one object. Images are of the picture's size.
+struct WaysOfSight {
+  const gpu::Image* start = nullptr;  // rgba32f: m; a = length (m), 0 where there is none
+  // rgba32f: rg = direction away from the eye, octahedral; b = the part of light from `start` that comes to
+  // the eye, without what is taken by a m in the volume before it.
+  const gpu::Image* direction = nullptr;
+  uint32_t object = 0;
+  std::optional<gpu::Region> region{};  // outside there are none
+};
+
 // A pass that adds to `causticsLux` at those points what `draw` draws with whole_picture.vert.
 void drawCaustics(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& causticsLux,
                   const std::function<void()>& draw);
@@ -63,6 +73,11 @@ class Technique {
   // all before it; what it records is named by passes of its own.
   virtual void shade(gpu::CommandList& commands, const ReceiverPoints& points,
                      const gpu::Image& causticsLux) = 0;
+
+  // Adds to `luminance` (nit, rgba32f) what the object scatters on these ways toward the eye, once, of light
+  // that met a caster. After `record`, in passes of its own.
+  virtual void scatter(gpu::CommandList& /*commands*/, const WaysOfSight& /*ways*/,
+                       const gpu::Image& /*luminance*/) {}
 };
 
 }  // namespace nephroid

@@ -3,9 +3,12 @@
 #include <algorithm>
 
 #include "optics/refraction.h"
+#include "scene/volume.h"
 
 namespace nephroid {
 namespace {
+
+constexpr float kFarthestSight = 1e7f;  // m in a medium, where nothing is met
 
 enum class Event : uint32_t { entered, left, reflected };
 
@@ -92,10 +95,8 @@ void crossThinWall(const Material& material, const FollowSettings& settings, uin
 void absorb(const std::vector<const Material*>& materials, float length, Walk& walk) {
   const uint32_t medium = walk.media.top();
   if (medium == kNone) return;
-  const Material& material = *materials[medium];
   walk.ray.pathLength += length;
-  walk.ray.transmittance *=
-      volumeTransmittance(material.attenuationColor, material.inverseAttenuationDistance(), length);
+  walk.ray.transmittance *= transmittanceOf(*materials[medium], length);
 }
 
 }  // namespace
@@ -140,7 +141,7 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
       continue;
     }
     if (goesOn) ray.reach = hit.distance;
-    if (goesOn && settings.isSight) absorb(materials, hit.distance, walk);
+    if (settings.isSight) absorb(materials, goesOn ? hit.distance : kFarthestSight, walk);
     const bool leaked = !goesOn && walk.media.top() != kNone && rays.isClosed(walk.media.top());
     const bool planUnfulfilled = (settings.reflections >> walk.choices) != 0;
     if (leaked || planUnfulfilled) ray.flags |= kRayLost;

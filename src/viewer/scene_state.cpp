@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/shapes.h"
+#include "scene/volume.h"
 
 namespace nephroid {
 namespace {
@@ -15,7 +16,7 @@ bool isPreparedAlike(const Material& a, const Material& b, const TechniqueSettin
   if (a.type != b.type || hasEmission != willHaveEmission) return false;
   if (settings.technique == "irradiance-volume")
     return a.ior == b.ior && a.color == b.color && a.attenuationColor == b.attenuationColor &&
-           a.attenuationDistance == b.attenuationDistance;
+           a.attenuationDistance == b.attenuationDistance && a.scattering == b.scattering;
   return settings.source == Source::traced || a.ior == b.ior;
 }
 
@@ -31,8 +32,7 @@ void setDrops(Scene& scene, Object& object, std::vector<WaterDrop> drops) {
 }
 
 bool isTinted(const SceneState& state) {
-  return std::ranges::any_of(state.materials,
-                             [](const Material& m) { return m.inverseAttenuationDistance() > 0; });
+  return std::ranges::any_of(state.materials, [](const Material& m) { return extinctionOf(m) != vec3(0); });
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <glm/gtc/matrix_access.hpp>
 
 #include "gpu/transfer.h"
 #include "scene/air.h"
@@ -20,11 +19,9 @@ constexpr uint32_t kGlimpseStride = 8;  // pixels
 constexpr uint32_t kFewestPlanes = 8, kMostPlanes = 256;
 constexpr uint32_t kMostSubplanes = 64;
 
-// x and y of clip space are the parts of a ray along two rows of the projection, which stand on each other
-// and on the view.
 AirSight airSight(const View& view) {
-  const vec3 x(glm::row(view.worldToClip, 0)), y(glm::row(view.worldToClip, 1));
-  return {view.eye, view.forward, x / dot(x, x), y / dot(y, y), view.nearest, 0, 1};
+  const PictureRays rays = raysOf(view);
+  return {view.eye, rays.middle, rays.right, rays.down, view.nearest, 0, 1};
 }
 
 // Sub-planes find a change of light to within the error, as a part of the ray: 1 / (planes * subplanes).
@@ -53,7 +50,7 @@ double relativeDifference(const std::vector<vec4>& a, const std::vector<vec4>& b
 Shafts::Shafts(gpu::Device& device, const Scene& scene, uvec2 pictureSize, const ShaftSettings& settings)
     : device_(device), settings_(settings) {
   if (!scene.medium) return;
-  phase_ = phaseCode(*scene.medium);
+  phase_ = phaseCode(scene.medium->phase);
   box_.emplace(device, scene);
   sampler_ = gpu::createSampler(device);
   transmittance_ =

@@ -26,6 +26,7 @@ void main() {
   const vec3 facing = normalize(normal.xyz);
   const vec3 incident = normalize(position.xyz - constants.eye);
   float reflectance = fresnelReflectance(clamp(-dot(incident, facing), 0, 1), normal.a > 0 ? 1 / constants.ior : constants.ior);
+  if (normal.a < 0 && reflectance == 1) reflectance = 0;  // sight goes there as the way on, as `seen` has it
   if (constants.isThinWalled != 0) reflectance = 2 * reflectance / (1 + reflectance);
   receiverPosition = receiverAlbedo = vec4(0);
   receiverNormal = vec4(vec3(0), reflectance);

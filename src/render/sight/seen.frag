@@ -13,6 +13,7 @@ layout(set = 0, binding = 2) uniform texture2D casterDirection;
 layout(set = 0, binding = 3) uniform texture2DArray depths;
 layout(set = 0, binding = 4) uniform utexture2DArray normals;
 layout(set = 0, binding = 5) uniform utexture2DArray albedos;
+layout(set = 0, binding = 6) uniform utexture2D casterReceiver;
 layout(location = 0) out vec4 receiverPosition;
 layout(location = 1) out vec4 receiverNormal;
 layout(location = 2) out vec4 receiverAlbedo;
@@ -26,7 +27,15 @@ void main() {
   const FoundReceiver found =
       findReceiver(ray, isMine ? exit.a : kNoReach, constants.slices, constants.center, constants.reach, depths, normals);
   if (!isMine) discard;  // not before: software devices go on with the search
-  if (found.distance < 0) return;
+  if (found.distance < 0) {
+    // Hidden in the images, by another receiver: it is near where the corners' rays ended.
+    const uvec4 known = texelFetch(casterReceiver, pixel, 0);
+    if (known.a == 0) return;
+    receiverPosition = vec4(ray.origin + exit.a * ray.direction, 1);
+    receiverNormal = vec4(directionFromOctahedral(unpackUnorm2x16(known.r)), 0);
+    receiverAlbedo = sliceAlbedo(known.gb);
+    return;
+  }
   receiverPosition = vec4(ray.origin + found.distance * ray.direction, 1);
   receiverNormal = vec4(found.normal, 0);
   receiverAlbedo = sliceAlbedo(texelFetch(albedos, found.texel, 0).rg);

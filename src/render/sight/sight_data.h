@@ -16,6 +16,11 @@ struct SightVertex {
   vec3 transmittance;
   float reach;           // m from `exit` to the receiver that is met, or kNoReach
   float reflectedReach;  // the same from `position`, for what is reflected there
+  // The receiver that is met at `reach`, for where the images do not show it.
+  vec3 receiverNormal;  // unit
+  vec3 receiverColor;   // reflectance
+  uint receiverMaterial;
+  float isReceiverKnown;  // 0 or 1
 };
 
 // A square pyramid of sight.
@@ -128,7 +133,7 @@ SHARED_CONSTANT uint kSightDisperses = 2u;
 SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(nephroid::SightVertex) == 68 && sizeof(nephroid::SliceConstants) <= 128 &&
+static_assert(sizeof(nephroid::SightVertex) == 100 && sizeof(nephroid::SliceConstants) <= 128 &&
               sizeof(nephroid::SightConstants) <= 128);
 #endif
 

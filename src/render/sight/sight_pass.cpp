@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <optional>
 
+#include "scene/volume.h"
 #include "shaders/caster_frag.h"
 #include "shaders/caster_vert.h"
 #include "shaders/reflected_frag.h"
 #include "shaders/seen_frag.h"
 #include "shaders/slice_frag.h"
 #include "shaders/slice_vert.h"
+#include "shaders/ways_frag.h"
 #include "shaders/whole_picture_vert.h"
 
 namespace nephroid {
@@ -17,12 +19,15 @@ namespace {
 constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kNormals = VK_FORMAT_R32_UINT;
+constexpr VkFormat kReceivers = VK_FORMAT_R32G32B32A32_UINT;
 constexpr VkFormat kAlbedos = VK_FORMAT_R32G32_UINT;
 constexpr uint32_t kFaces = 6;
+constexpr float kFarthestWay = 1e5f;  // m in water, where nothing is met
 
 gpu::Program casterProgram(gpu::Device& device, const char* name, const gpu::RasterState& depth) {
   gpu::RasterState state = depth;
   state.colors.assign(5, {kFloats});
+  state.colors.push_back({kReceivers});
   state.depthFormat = kDepth;
   return gpu::createRasterProgram(device, name, shaders::caster_vert, shaders::caster_frag, state);
 }
@@ -63,13 +68,16 @@ SightPass::SightPass(gpu::Device& device, const SightSettings& settings)
       seenProgram_(lookingProgram(device, "seen by way of a caster", shaders::seen_frag)),
       reflectedProgram_(lookingProgram(device, "reflected by a caster", shaders::reflected_frag)),
       sliceProgram_(sliceProgram(device, "slice", VK_FALSE)),
-      texturedSliceProgram_(sliceProgram(device, "textured slice", VK_TRUE)) {}
+      texturedSliceProgram_(sliceProgram(device, "textured slice", VK_TRUE)),
+      waysProgram_(gpu::createRasterProgram(device, "ways in water", shaders::whole_picture_vert,
+                                            shaders::ways_frag, {.colors = {{kFloats}, {kFloats}}})) {}
 
 void SightPass::update(SceneTransport& transport, const View& view, uvec2 pictureSize,
                        const std::vector<MeshExtent>& extents) {
   const Scene& scene = transport.scene();
   casters_.clear();
   meshes_.clear();
+  waters_.clear();
   receivers_.clear();
   receiverColors_.clear();
   receiverMaterials_.clear();
@@ -91,7 +99,11 @@ void SightPass::update(SceneTransport& transport, const View& view, uvec2 pictur
     if (!scene.isCaster(object)) continue;
     const gpu::Region region = regionOf(view, pictureSize, cornersOf(object, extents[object.mesh]));
     if (region.size.x > 0) add(transport, view, i, extents[object.mesh], region, media);
+    if (object.water) addWater(scene, view, i, pictureSize, media.top() == i, region.size.x > 0);
   }
+  for (WaterInSight& water : waters_)
+    water.constants.region = uvec4(region_.corner.x, region_.corner.y, region_.size.x, region_.size.y);
+  std::ranges::stable_sort(waters_, {}, [](const WaterInSight& water) { return water.constants.kind; });
   upload(view);
   ensureImages(pictureSize);
 }
@@ -127,6 +139,29 @@ void SightPass::add(SceneTransport& transport, const View& view, uint32_t index,
   disperses_ |= caster.disperses;
   reflects_ |= !caster.isMirror;
   casters_.push_back(caster);
+}
+
+void SightPass::addWater(const Scene& scene, const View& view, uint32_t object, uvec2 pictureSize,
+                         bool isInside, bool isInPicture) {
+  const Material& material = scene.materialOf(scene.objects[object]);
+  const vec3 extinction = extinctionOf(material);
+  if (extinction == vec3(0) || !(isInside || isInPicture)) return;
+  const PictureRays rays = raysOf(view);
+  WayConstants constants{};
+  constants.eye = view.eye;
+  constants.middle = rays.middle;
+  constants.right = rays.right;
+  constants.down = rays.down;
+  constants.imageSize = vec2(pictureSize);
+  constants.number = isInPicture ? uint32_t(casters_.size()) : 0;
+  constants.ior = material.ior.y;
+  constants.farthest = kFarthestWay;
+  const auto addWays = [&](uint kind) {
+    constants.kind = kind;
+    waters_.push_back({object, constants, extinction});
+  };
+  if (isInPicture) addWays(isInside ? kWayReflected : kWayFromSurface);
+  if (isInside) addWays(kWayFromEye);
 }
 
 void SightPass::upload(const View& view) {
@@ -175,14 +210,15 @@ std::vector<Lattice> SightPass::lattices() const {
 
 void SightPass::ensureImages(uvec2 pictureSize) {
   if (casters_.empty()) return;
-  const auto picture = [&](const char* name) {
+  const auto picture = [&](const char* name, VkFormat format = kFloats) {
     return gpu::createImage(device_, name,
-                            {.format = kFloats, .width = pictureSize.x, .height = pictureSize.y});
+                            {.format = format, .width = pictureSize.x, .height = pictureSize.y});
   };
   if (!position_ || uvec2(position_.width(), position_.height()) != pictureSize) {
     position_ = picture("casters' positions");
     exit_ = picture("where sight leaves casters");
     direction_ = picture("directions of sight");
+    receiver_ = picture("receivers that sight ends at", kReceivers);
   }
   if (receiverImages_.depths) return;
   const auto create = [&](const char* name, VkFormat format) {
@@ -206,7 +242,8 @@ void SightPass::drawCasters(gpu::CommandList& commands, std::span<const SeenCast
                               {&images.casterNormal, 0, nothing},
                               {&exit_, 0, std::nullopt},
                               {&direction_, 0, std::nullopt},
-                              {&transmittance, 0, nothing}},
+                              {&transmittance, 0, nothing},
+                              {&receiver_, 0, std::nullopt}},
                    .depth = gpu::DepthAttachment{&images.depth, 0, std::nullopt},
                    .region = region_},
                   [&] {
@@ -259,18 +296,30 @@ void SightPass::drawSurroundings(gpu::CommandList& commands, const GpuScene& gpu
 
 // The images that are looked into the first time in a frame hold nothing wherever casters may be.
 void SightPass::look(gpu::CommandList& commands, const gpu::Program& program, const SeenCaster& caster,
-                     uint32_t channel, const gpu::Image& second, const SeenImages& seen, bool isFirst) {
+                     uint32_t channel, gpu::Bindings bindings, const SeenImages& seen, bool isFirst) {
   SightConstants constants = caster.constants;
   constants.slices = caster.slices[channel];
   const std::optional<vec4> nothing = isFirst ? std::optional(vec4(0)) : std::nullopt;
   commands.render(
       {.colors = {{&seen.position, 0, nothing}, {&seen.normal, 0, nothing}, {&seen.albedo, 0, nothing}},
        .region = isFirst ? region_ : caster.region},
-      [&] {
-        commands.draw(program, 3, 1, constants,
-                      {position_, second, direction_, receiverImages_.depths, receiverImages_.normals,
-                       receiverImages_.albedos});
-      });
+      [&] { commands.draw(program, 3, 1, constants, bindings); });
+}
+
+void SightPass::lookThrough(gpu::CommandList& commands, const SeenCaster& caster, uint32_t channel,
+                            const SeenImages& seen, bool isFirst) {
+  look(commands, seenProgram_, caster, channel,
+       {position_, exit_, direction_, receiverImages_.depths, receiverImages_.normals,
+        receiverImages_.albedos, receiver_},
+       seen, isFirst);
+}
+
+void SightPass::lookAtReflected(gpu::CommandList& commands, const SeenCaster& caster,
+                                const FrameImages& images, bool isFirst) {
+  look(commands, reflectedProgram_, caster, 0,
+       {position_, images.casterNormal, direction_, receiverImages_.depths, receiverImages_.normals,
+        receiverImages_.albedos},
+       images.reflected, isFirst);
 }
 
 void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images) {
@@ -285,18 +334,29 @@ void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, con
       commands.pass("sliced object images", [&] { drawSlices(commands, gpuScene, caster.slices[channel]); });
       commands.pass("seen through casters", [&] {
         const bool isFirst = channel > 0 && isFirstDispersed;
-        look(commands, seenProgram_, caster, channel, exit_,
-             channel == 0 ? images.seen : images.dispersed[channel - 1], isFirst);
+        lookThrough(commands, caster, channel, channel == 0 ? images.seen : images.dispersed[channel - 1],
+                    isFirst);
         if (channel == 2) isFirstDispersed = false;
       });
       if (channel > 0 || caster.isMirror) continue;
       commands.pass("reflected by casters", [&] {
-        look(commands, reflectedProgram_, caster, channel, images.casterNormal, images.reflected,
-             isFirstReflected);
+        lookAtReflected(commands, caster, images, isFirstReflected);
         isFirstReflected = false;
       });
     }
   }
+}
+
+void SightPass::recordWays(gpu::CommandList& commands, const WaterInSight& water, const FrameImages& images,
+                           const gpu::Image& start, const gpu::Image& direction) {
+  const bool hasCasters = !casters_.empty();
+  const gpu::Image& none = images.seen.position;
+  commands.render({.colors = {{&start, 0, std::nullopt}, {&direction, 0, std::nullopt}}}, [&] {
+    commands.draw(
+        waysProgram_, 3, 1, water.constants,
+        {images.seen.position, hasCasters ? position_ : none, hasCasters ? images.casterNormal : none,
+         hasCasters ? exit_ : none, hasCasters ? direction_ : none});
+  });
 }
 
 }  // namespace nephroid

@@ -14,6 +14,7 @@
 #include "render/frame_resources.h"
 #include "render/shadow_maps.h"
 #include "render/sight/slices.h"
+#include "render/sight/ways_data.h"
 #include "render/view.h"
 #include "techniques/gpu_scene.h"
 #include "techniques/lattice.h"
@@ -31,6 +32,13 @@ struct ReceiverImages {
   gpu::Image depths;   // d32, reversed
   gpu::Image normals;  // r32ui: octahedral
   gpu::Image albedos;  // rg32ui: packSliceAlbedo
+};
+
+// Water that takes of what is seen through it, or scatters.
+struct WaterInSight {
+  uint32_t object = 0;
+  WayConstants constants{};
+  vec3 extinction{0};  // 1/m
 };
 
 // One frame is update, then record.
@@ -52,6 +60,13 @@ class SightPass {
   // Of the frame's slices of receivers, those that may hold any.
   std::vector<Lattice> lattices() const;
 
+  // Ways of sight through water; those from an eye in it, if any, last.
+  const std::vector<WaterInSight>& waters() const { return waters_; }
+
+  // Where lines of sight go through that water, after `record`. Two images of the picture's size.
+  void recordWays(gpu::CommandList& commands, const WaterInSight& water, const FrameImages& images,
+                  const gpu::Image& start, const gpu::Image& direction);
+
   // Puts what casters show over the receivers in `images`, and the casters into their depth, in passes of its
   // own.
   void record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images);
@@ -71,6 +86,8 @@ class SightPass {
 
   void add(SceneTransport& transport, const View& view, uint32_t object, const MeshExtent& extent,
            const gpu::Region& region, const MediumStack& media);
+  void addWater(const Scene& scene, const View& view, uint32_t object, uvec2 pictureSize, bool isInside,
+                bool isInPicture);
   void upload(const View& view);
   void ensureImages(uvec2 pictureSize);
   void drawCasters(gpu::CommandList& commands, std::span<const SeenCaster> casters, uint32_t channel,
@@ -79,21 +96,27 @@ class SightPass {
                      vec2 depths, uint32_t layer, uint32_t size);
   void drawSlices(gpu::CommandList& commands, const GpuScene& gpuScene, const SliceSet& set);
   void drawSurroundings(gpu::CommandList& commands, const GpuScene& gpuScene, const SeenCaster& caster);
-  // `second`: the image that the program takes besides those of positions and directions.
+  void lookThrough(gpu::CommandList& commands, const SeenCaster& caster, uint32_t channel,
+                   const SeenImages& seen, bool isFirst);
+  void lookAtReflected(gpu::CommandList& commands, const SeenCaster& caster, const FrameImages& images,
+                       bool isFirst);
   void look(gpu::CommandList& commands, const gpu::Program& program, const SeenCaster& caster,
-            uint32_t channel, const gpu::Image& second, const SeenImages& seen, bool isFirst);
+            uint32_t channel, gpu::Bindings bindings, const SeenImages& seen, bool isFirst);
 
   gpu::Device& device_;
   SightSettings settings_;
   gpu::Program casterProgram_, channelProgram_, seenProgram_, reflectedProgram_;
   gpu::Program sliceProgram_, texturedSliceProgram_;
-  ReceiverImages receiverImages_;           // of one caster after the other
-  gpu::Image position_, exit_, direction_;  // of the picture's size, as caster.frag writes them
+  gpu::Program waysProgram_;
+  ReceiverImages receiverImages_;  // of one caster after the other
+  // Of the picture's size, as caster.frag writes them.
+  gpu::Image position_, exit_, direction_, receiver_;
   gpu::Buffer vertices_, indices_, camera_;
 
   // Of the frame being made.
   std::vector<SightMesh> meshes_;
   std::vector<SeenCaster> casters_;
+  std::vector<WaterInSight> waters_;
   std::vector<ReceiverBounds> receivers_;
   std::vector<vec3> receiverColors_;  // of the objects
   std::vector<uint32_t> receiverMaterials_;

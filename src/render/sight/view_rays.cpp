@@ -55,7 +55,11 @@ SightVertex vertexOf(const Corner& corner) {
           corner.ray.direction,
           corner.ray.transmittance,
           reach,
-          -1};
+          -1,
+          {},
+          {},
+          0,
+          0};
 }
 
 bool isLost(const OutgoingRay& ray) {
@@ -295,27 +299,40 @@ class Collector {
   std::vector<Corner> corners;
 };
 
-}  // namespace
+// What sight meets where it ends.
+void findReceiver(const Scene& scene, const RayScene& rays, SightVertex& vertex) {
+  if (!(vertex.reach > 0)) return;
+  Hit hit;
+  if (!rays.intersect({vertex.exit, vertex.direction, 0.999f * vertex.reach}, hit)) return;
+  const Material& material = scene.materialOf(scene.objects[hit.object]);
+  if (material.isCaster()) return;
+  vertex.receiverNormal = dot(hit.normal, vertex.direction) < 0 ? hit.normal : -hit.normal;
+  vertex.receiverColor = material.color;
+  vertex.receiverMaterial = scene.objects[hit.object].material;
+  // Of a texture the surface's place would have to be known, too.
+  vertex.isReceiverKnown = material.colorTexture == kNone ? 1 : 0;
+}
 
-namespace {
+// Where what is reflected at a vertex comes from.
+void findReflected(const Scene& scene, const RayScene& rays, vec3 eye, SightVertex& vertex) {
+  const vec3 incident = normalize(vertex.position - eye);
+  const vec3 normal = dot(incident, vertex.normal) < 0 ? vertex.normal : -vertex.normal;
+  Hit hit;
+  if (rays.intersect({vertex.position, reflectDirection(incident, normal), rays.selfIntersectionDistance()},
+                     hit) &&
+      !scene.isCaster(scene.objects[hit.object]))
+    vertex.reflectedReach = hit.distance;
+}
 
-// Where what is reflected at each vertex that is seen comes from.
-void findReflected(const Scene& scene, const RayScene& rays, vec3 eye, SightMesh& mesh) {
+// Calls find(vertex) for those that are seen.
+template <class Find>
+void forUsedVertices(SightMesh& mesh, const Find& find) {
   std::vector<bool> isUsed(mesh.vertices.size(), false);
   for (const uint32_t i : mesh.indices) isUsed[i] = true;
   using Range = oneapi::tbb::blocked_range<std::size_t>;
   oneapi::tbb::parallel_for(Range(0, mesh.vertices.size(), kBlock), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      if (!isUsed[i]) continue;
-      SightVertex& vertex = mesh.vertices[i];
-      const vec3 incident = normalize(vertex.position - eye);
-      const vec3 normal = dot(incident, vertex.normal) < 0 ? vertex.normal : -vertex.normal;
-      Hit hit;
-      if (rays.intersect(
-              {vertex.position, reflectDirection(incident, normal), rays.selfIntersectionDistance()}, hit) &&
-          !scene.isCaster(scene.objects[hit.object]))
-        vertex.reflectedReach = hit.distance;
-    }
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      if (isUsed[i]) find(mesh.vertices[i]);
   });
 }
 
@@ -336,8 +353,11 @@ TransportQuery sightQuery(uint32_t object, vec3 eye, uint32_t channel, const Med
 SightMesh sightMesh(const Scene& scene, const TransportSource& source, const RayScene& rays,
                     const TransportQuery& query, const View& view) {
   SightMesh mesh = Collector(scene, source, query, view).collect();
-  if (scene.materialOf(scene.objects[query.object]).type == MaterialType::dielectric)
-    findReflected(scene, rays, query.emitter.position, mesh);
+  const bool reflects = scene.materialOf(scene.objects[query.object]).type == MaterialType::dielectric;
+  forUsedVertices(mesh, [&](SightVertex& vertex) {
+    findReceiver(scene, rays, vertex);
+    if (reflects) findReflected(scene, rays, query.emitter.position, vertex);
+  });
   return mesh;
 }
 

@@ -5,10 +5,12 @@
 #include "beams/tree.h"
 #include "gpu/command_list.h"
 #include "gpu/program.h"
+#include "scene/volume.h"
 #include "shaders/beam_on_patch_frag.h"
 #include "shaders/beam_on_patch_vert.h"
 #include "shaders/patches_comp.h"
 #include "techniques/light_beams.h"
+#include "techniques/light_volumes/scattered_light.h"
 #include "techniques/light_volumes/shader_data.h"
 
 namespace nephroid {
@@ -57,6 +59,9 @@ class LightVolumes final : public Technique {
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;
+  void scatter(gpu::CommandList& commands, const WaysOfSight& ways, const gpu::Image& luminance) override {
+    scattered.draw(commands, ways, luminance);
+  }
   bool coversSquares() const override { return true; }
   bool finish() override;
 
@@ -78,6 +83,7 @@ class LightVolumes final : public Technique {
   TexelList<Beam> beams{"light volumes"};
   TexelList<BeamBounds> bounds{"bounds of light volumes"};
   gpu::Buffer portionsRead;
+  ScatteredLight scattered;
 };
 
 gpu::RasterState stateOfDraws() {
@@ -102,8 +108,13 @@ LightVolumes::LightVolumes(const TechniqueContext& context)
       counts(gpu::createBuffer(device, "counts of light volumes", sizeof(Counts))),
       countsRead(gpu::createBuffer(device, "counts to read", sizeof(Counts), gpu::MemoryKind::readback)),
       noDraws(gpu::createBuffer(device, "no draws", sizeof(BeamDrawCommand), gpu::MemoryKind::upload)),
-      command(gpu::createBuffer(device, "draws of beams", sizeof(BeamDrawCommand))) {
+      command(gpu::createBuffer(device, "draws of beams", sizeof(BeamDrawCommand))),
+      scattered(device) {
   noDraws.write(std::vector{kNoDraws});
+}
+
+vec3 downInto(const Object& water) {
+  return water.placement.direction({0, -1, 0});
 }
 
 // Where most of the light of a portion goes, and through what.
@@ -114,11 +125,8 @@ BeamPortion portionOf(const Scene& scene, uint32_t caster, const std::vector<Bea
            glm::dvec3(beam.direction[0] + beam.direction[1] + beam.direction[2]);
   BeamPortion portion{vec3(sum / std::max(glm::length(sum), 1e-300)), vec3(0)};
   const Object& object = scene.objects[caster];
-  const bool isInWater = object.water && dot(portion.still, object.placement.direction({0, 1, 0})) < 0;
-  const Material& material = scene.materialOf(object);
-  if (isInWater)
-    portion.extinction =
-        -log(max(material.attenuationColor, vec3(1e-6f))) * material.inverseAttenuationDistance();
+  if (object.water && dot(portion.still, downInto(object)) > 0)
+    portion.extinction = extinctionOf(scene.materialOf(object));
   return portion;
 }
 
@@ -133,11 +141,19 @@ void LightVolumes::update(GpuScene&) {
   const std::vector<ReceiverBox> boxes = receiverBoxes(scene);
   std::vector<std::vector<Beam>> portions;
   std::vector<BeamPortion> ofPortions;
+  std::vector<uint32_t> objects;  // that portions come from
   for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths, casters)) {
     portions.push_back(refinedBeams(scene, source, queries, boxes, settings));
-    ofPortions.push_back(portionOf(scene, queries.front().query.object, portions.back()));
+    objects.push_back(queries.front().query.object);
+    ofPortions.push_back(portionOf(scene, objects.back(), portions.back()));
   }
   if (settings.contributionError > 0) leaveOutWeakest(portions, double(settings.contributionError));
+  scattered.begin();
+  for (std::size_t i = 0; i < portions.size(); ++i) {
+    const Object& caster = scene.objects[objects[i]];
+    if (ofPortions[i].extinction != vec3(0) && scatters(scene.materialOf(caster)))
+      scattered.add(scene, objects[i], portions[i], downInto(caster));
+  }
   tree = buildBeamTree(portions);
   beams.write(device, tree.beams);
   bounds.write(device, tree.bounds);
@@ -151,6 +167,7 @@ void LightVolumes::record(gpu::CommandList& commands, GpuScene&) {
   commands.pass("light volumes", [&] {
     beams.copy(commands);
     bounds.copy(commands);
+    scattered.upload(commands);
   });
 }
 
@@ -192,6 +209,7 @@ bool LightVolumes::finish() {
   setCount(stats, "bounds_tested", counted.tested);
   setCount(stats, "bounds_culled", counted.culled);
   setCount(stats, "volumes_drawn", counted.drawn);
+  if (scattered.count() > 0) setCount(stats, "volumes_in_layers", scattered.count());
   if (counted.wanted == 0) return true;
   gpu::ensureBuffer(device, draws, "beams on patches", counted.wanted * sizeof(BeamDraw));
   return false;

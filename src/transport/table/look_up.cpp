@@ -1,6 +1,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "scene/volume.h"
 #include "transport/table/table.h"
 
 namespace nephroid {
@@ -20,8 +21,7 @@ void tableRays(const TransportTable& table, const Mesh& mesh, const Placement& p
       ray.position = placement.point(ray.position);
       ray.direction = placement.direction(ray.direction);
       ray.pathLength *= placement.scale;
-      ray.transmittance *= volumeTransmittance(material.attenuationColor,
-                                               material.inverseAttenuationDistance(), ray.pathLength);
+      ray.transmittance *= transmittanceOf(material, ray.pathLength);
       rays[i] = ray;
     }
   });

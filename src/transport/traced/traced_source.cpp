@@ -5,6 +5,7 @@
 
 #include "optics/refraction.h"
 #include "scene/mesh_checks.h"
+#include "scene/volume.h"
 
 namespace nephroid {
 
@@ -19,7 +20,8 @@ MediumStack TracedSource::mediaAround(const Emitter& emitter) const {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     const vec3 place = object.placement.inversePoint(emitter.position);
-    const auto& [low, high] = boxes[object.mesh];
+    auto [low, high] = boxes[object.mesh];
+    if (object.water) low.y = -std::numeric_limits<float>::infinity();  // its bottom is open
     if (scene.isCaster(object) && glm::all(glm::greaterThanEqual(place, low)) &&
         glm::all(glm::lessThanEqual(place, high)))
       return follower.mediaAround(emitter.position);
@@ -54,8 +56,7 @@ OutgoingRay TracedSource::rayAt(const TransportQuery& query, const SurfacePoint&
     const Material& medium = scene.materialOf(scene.objects[query.media.top()]);
     const float distance = length(point.position - query.emitter.position);
     ray.pathLength += distance;
-    ray.transmittance *=
-        volumeTransmittance(medium.attenuationColor, medium.inverseAttenuationDistance(), distance);
+    ray.transmittance *= transmittanceOf(medium, distance);
   }
   return ray;
 }

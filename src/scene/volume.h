@@ -1,0 +1,44 @@
+// What fills a dielectric object, as optics/ computes it.
+#pragma once
+
+#include "optics/phase.h"
+#include "optics/refraction.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+// kPhase...
+inline uint phaseCode(PhaseType type) {
+  switch (type) {
+    case PhaseType::henyeyGreenstein:
+      return kPhaseHenyeyGreenstein;
+    case PhaseType::nishita:
+      return kPhaseNishita;
+    default:
+      return kPhaseIsotropic;
+  }
+}
+
+inline bool hasVolume(const Material& material) {
+  return material.type == MaterialType::dielectric && !material.thinWalled;
+}
+
+inline bool scatters(const Material& material) {
+  return hasVolume(material) && material.scattering != vec3(0);
+}
+
+// 1/m: what it absorbs and what it scatters.
+inline vec3 extinctionOf(const Material& material) {
+  if (!hasVolume(material)) return vec3(0);
+  return material.scattering -
+         glm::log(glm::max(material.attenuationColor, vec3(1e-30f))) * material.inverseAttenuationDistance();
+}
+
+// What a length (m) of it leaves of light.
+inline vec3 transmittanceOf(const Material& material, float length) {
+  const vec3 left =
+      volumeTransmittance(material.attenuationColor, material.inverseAttenuationDistance(), length);
+  return material.scattering == vec3(0) ? left : left * glm::exp(-material.scattering * length);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,46 @@
+// Light that water scatters on the way of its beams (god rays; after the sampling of shafts by planes in
+// Dobashi 2002, on layers across the beams).
+#pragma once
+
+#include <vector>
+
+#include "beams/light_layers.h"
+#include "gpu/program.h"
+#include "gpu/resources.h"
+#include "techniques/light_volumes/scatter_data.h"
+#include "techniques/technique.h"
+
+namespace nephroid {
+
+// One frame is begin, add for each portion of the light, upload, then draw for each object that scatters.
+class ScatteredLight {
+ public:
+  // The device outlives it.
+  explicit ScatteredLight(gpu::Device& device);
+
+  void begin() { count_ = 0; }
+
+  // Light in an object of a material that scatters, which goes along unit `axis`, give or take.
+  void add(const Scene& scene, uint32_t object, std::span<const Beam> beams, vec3 axis);
+
+  std::size_t count() const { return count_; }
+  void upload(gpu::CommandList& commands) const;
+  void draw(gpu::CommandList& commands, const WaysOfSight& ways, const gpu::Image& luminance) const;
+
+ private:
+  struct Portion {
+    uint32_t object = 0;
+    ScatterConstants constants{};
+    gpu::Image layers;  // as LightLayers has them, over a common scale
+    gpu::Buffer staged;
+  };
+  void write(Portion& portion, const LightLayers& light, float scale);
+
+  gpu::Device& device_;
+  gpu::Program program_;
+  gpu::Sampler sampler_;
+  std::vector<Portion> portions_;
+  std::size_t count_ = 0;  // of the portions, in the frame being made
+};
+
+}  // namespace nephroid
