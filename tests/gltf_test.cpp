@@ -7,6 +7,8 @@
 #include "scene/diagnose.h"
 #include "scene/load.h"
 #include "scene/mesh_checks.h"
+#include "scene/save_scene.h"
+#include "scene/scene_toml.h"
 #include "scratch_files.h"
 #include "shared_data.h"
 
@@ -182,6 +184,75 @@ TEST_F(Gltf, LightsAndTheFirstCameraComeWithTheirNodes) {
   EXPECT_LT(glm::distance(glm::normalize(scene.camera.target - scene.camera.position), vec3(0, 0, -1)),
             1e-6f);
   EXPECT_NEAR(scene.camera.verticalFov, glm::degrees(0.5), 1e-4);
+}
+
+// A stone of glass with a lamp.
+Parts glassAndLamp() {
+  Parts parts;
+  parts.nodes = R"([{"mesh": 0, "name": "stone", "extensions": {"KHR_lights_punctual": {"light": 0}}}])";
+  parts.more =
+      R"("extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {}, "name": "lamp", "intensity": 5}]}},)";
+  parts.materials =
+      R"([{"name": "glass", "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+           "KHR_materials_volume": {"thicknessFactor": 1}}}])";
+  return parts;
+}
+
+Scene withOtherGlassAndLamp(Scene scene, float more) {
+  scene.lights.at(0).position += vec3(more, 0, 0);
+  scene.lights[0].intensity *= 1 + more;
+  scene.lights[0].direction = normalize(vec3(more, -1, 0));
+  scene.objects.at(0).placement.translation.y += more;
+  scene.objects[0].placement.rotation = glm::angleAxis(more, vec3(0, 1, 0));
+  scene.materials.at(0).ior += 0.1f * more;
+  scene.materials[0].attenuationColor = vec3(0.5f, 0.75f, 1);
+  scene.materials[0].attenuationDistance = more;
+  return scene;
+}
+
+void expectAlike(const Scene& a, const Scene& b) {
+  EXPECT_EQ(a.lights.at(0).position, b.lights.at(0).position);
+  EXPECT_EQ(a.lights[0].intensity, b.lights[0].intensity);
+  EXPECT_LT(glm::distance(a.lights[0].direction, b.lights[0].direction), 1e-6f);
+  EXPECT_LT(glm::distance(a.objects.at(0).placement.point(vec3(1)), b.objects.at(0).placement.point(vec3(1))),
+            1e-5f);
+  EXPECT_EQ(a.materials.at(0).ior, b.materials.at(0).ior);
+  EXPECT_EQ(a.materials[0].attenuationColor, b.materials[0].attenuationColor);
+  EXPECT_EQ(a.materials[0].attenuationDistance, b.materials[0].attenuationDistance);
+}
+
+TEST_F(Gltf, WhatIsChangedOfAnImportIsSavedInTheSceneThatImportsIt) {
+  write("room.gltf", gltf(glassAndLamp()));
+  std::string text = "[[object]]\nname = \"room\"\nimport = \"room.gltf\"\n";
+  const auto file = write("s.toml", text);
+  // The second time, what was changed before is changed again.
+  for (const float more : {0.25f, 0.5f}) {
+    const Scene before = readTomlScene(text, file, 0);
+    const Scene after = withOtherGlassAndLamp(before, more);
+    const SavedScene saved = savedScene(text, before, after);
+    EXPECT_TRUE(saved.notSaved.empty());
+    expectAlike(readTomlScene(saved.text, file, 0), after);
+    text = saved.text;
+  }
+}
+
+TEST_F(Gltf, WhatIsChangedOfAFileIsSavedInASceneAroundIt) {
+  const auto file = write("room.gltf", gltf(glassAndLamp()));
+  const Scene before = loadScene(file);
+  const Scene after = withOtherGlassAndLamp(before, 0.25f);
+  const SavedScene saved = savedScene(sceneAround(file), before, after);
+  EXPECT_TRUE(saved.notSaved.empty());
+  expectAlike(readTomlScene(saved.text, write("room.toml", ""), 0), after);
+}
+
+TEST_F(Gltf, AChangeOfWhatAnImportDoesNotBringIsAnError) {
+  write("room.gltf", gltf(glassAndLamp()));
+  const std::string error = inputErrorOf([&] {
+    loadScene(write("s.toml",
+                    "[[object]]\nname = \"room\"\nimport = \"room.gltf\"\nlight = [{ name = \"lamq\" }]\n"));
+  });
+  EXPECT_NE(error.find("s.toml:4"), std::string::npos) << error;
+  EXPECT_NE(error.find("nearest is \"lamp\""), std::string::npos) << error;
 }
 
 TEST_F(Gltf, AnImportComesUnderTheObjectsTransform) {

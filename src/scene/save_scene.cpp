@@ -5,21 +5,13 @@
 
 #include "scene/framing.h"
 #include "scene/mesh_checks.h"
+#include "scene/save_imports.h"
 #include "scene/toml_table.h"
 #include "scene/toml_text.h"
 #include "scene/wave_simulation.h"
 
 namespace nephroid {
 namespace {
-
-// The angles of `rotation`, as a scene file has them.
-vec3 eulerDegrees(quat rotation) {
-  const mat3 m = glm::mat3_cast(rotation);
-  const float sinY = glm::clamp(-m[0][2], -1.0f, 1.0f);
-  vec3 angles(std::atan2(m[1][2], m[2][2]), std::asin(sinY), std::atan2(m[0][1], m[0][0]));
-  if (std::abs(sinY) > 0.99999f) angles = {std::atan2(-m[2][1], m[1][1]), angles.y, 0};
-  return glm::degrees(angles);
-}
 
 void saveCamera(const Camera& before, const Camera& after, TomlText& text) {
   if (before == after) return;
@@ -200,6 +192,13 @@ void saveLight(const Light& before, const Light& after, const toml::table& table
   saveStrength(before, after, hasOtherCone, table, text);
 }
 
+// What the names of imported things begin with, where there are as many objects before them; nothing in a
+// scene that is the imported file alone.
+std::string importPrefix(const Scene& scene, const toml::table& table, std::size_t objects) {
+  if (scene.file.extension() != ".toml") return {};
+  return table["name"].value_or("object " + std::to_string(objects + 1)) + "/";
+}
+
 // Tables of imports stand for as many objects as their names begin.
 void saveObjects(const Scene& before, const Scene& after, TomlText& text,
                  std::vector<std::string>& notSaved) {
@@ -216,11 +215,27 @@ void saveObjects(const Scene& before, const Scene& after, TomlText& text,
       ++next;
       continue;
     }
-    const std::string prefix = (*table)["name"].value_or("object " + std::to_string(next + 1)) + "/";
+    const std::string prefix = importPrefix(before, *table, next);
     for (; next < before.objects.size() && before.objects[next].name.starts_with(prefix); ++next)
       addIfMoved(next);
   }
   for (; next < before.objects.size(); ++next) addIfMoved(next);
+}
+
+// After all else has said what it could not save.
+void saveImports(const Scene& before, const Scene& after, TomlText& text,
+                 std::vector<std::string>& notSaved) {
+  std::size_t next = 0;
+  for (const toml::table* table : text.tables("object")) {
+    const std::string prefix = importPrefix(before, *table, next);
+    const auto isOfIt = [&](const Object& object) { return object.name.starts_with(prefix); };
+    if (table->contains("import")) {
+      saveImported(before, after, prefix, *table, text, notSaved);
+      while (next < before.objects.size() && isOfIt(before.objects[next])) ++next;
+    } else {
+      ++next;
+    }
+  }
 }
 
 // Of lists that the file has a part of, in a row: `first` is the place of its first table.
@@ -254,6 +269,7 @@ SavedScene savedScene(const std::string& source, const Scene& before, const Scen
            lights, saved.notSaved, [&](const Light& was, const Light& is, const toml::table& table) {
              saveLight(was, is, table, text);
            });
+  saveImports(before, after, text, saved.notSaved);
   saved.text = text.text();
   return saved;
 }

@@ -25,6 +25,13 @@ Medium readMedium(TomlTable table, const std::filesystem::path& folder);
 // As above; gives the first camera that was imported.
 std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene, WaveRuns* waves = nullptr);
 
+// Euler angles in degrees, applied X first.
+quat rotationOf(vec3 degrees);
+
+// Of a dielectric.
+inline constexpr Range kIor{0.1, 10};
+inline constexpr Range kAbbe{1, 10000};
+
 // The mesh of an [[object]] that has a `shape`; sets object.water for water.
 Mesh readShape(TomlTable& table, Object& object, const Scene& scene, WaveRuns* waves);
 

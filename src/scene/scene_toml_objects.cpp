@@ -10,12 +10,11 @@
 #include "scene/mesh_density.h"
 #include "scene/mesh_file.h"
 #include "scene/scene_toml.h"
+#include "scene/scene_toml_imports.h"
 
 namespace nephroid {
 namespace {
 
-constexpr Range kIor{0.1, 10};
-constexpr Range kAbbe{1, 10000};
 constexpr double kMostVertices = 4e6;
 constexpr double kVertexSlack = 1.1;
 
@@ -52,13 +51,6 @@ uint32_t materialNamed(TomlTable& table, const Scene& scene) {
   const std::string nearest = nearestName(name, names);
   table.fail("material", "is \"" + name + "\", and no [[material]] has that name" +
                              (nearest.empty() ? "" : "; the nearest is \"" + nearest + "\""));
-}
-
-// Euler angles in degrees, applied X first.
-quat rotationOf(vec3 degrees) {
-  const vec3 angles = glm::radians(degrees);
-  return glm::angleAxis(angles.z, vec3(0, 0, 1)) * glm::angleAxis(angles.y, vec3(0, 1, 0)) *
-         glm::angleAxis(angles.x, vec3(1, 0, 0));
 }
 
 struct ObjectTransform {
@@ -186,6 +178,7 @@ class ObjectReader {
   void import(TomlTable& table, const std::string& name) {
     const std::string file = table.requiredText("import");
     const ObjectTransform transform = readTransform(table);
+    ImportChanges changes = importChanges(table);
     table.finish();
     const auto path = findModel(file, scene_.file.parent_path(), table.at("import"));
     if (lowerExtension(path) != ".gltf" && lowerExtension(path) != ".glb") {
@@ -196,6 +189,7 @@ class ObjectReader {
     const Placement placement = transform.fit ? fitted(transform, boundsOf(part)) : transform.placement;
     if (part.camera && !camera) camera = placed(placement, *part.camera);
     addTo(scene_, std::move(part), placement, name + "/");
+    applyImportChanges(std::move(changes), name + "/", scene_);
   }
 
   Scene& scene_;
@@ -204,6 +198,12 @@ class ObjectReader {
 };
 
 }  // namespace
+
+quat rotationOf(vec3 degrees) {
+  const vec3 angles = glm::radians(degrees);
+  return glm::angleAxis(angles.z, vec3(0, 0, 1)) * glm::angleAxis(angles.y, vec3(0, 1, 0)) *
+         glm::angleAxis(angles.x, vec3(1, 0, 0));
+}
 
 void readMaterials(std::vector<TomlTable> tables, Scene& scene) {
   for (TomlTable& table : tables) {
