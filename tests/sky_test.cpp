@@ -65,7 +65,8 @@ vec3 luxOf(const Scene& scene, vec3 normal) {
 SampleMean referenceLux(Scene scene) {
   add(scene, makePlane({4, 4}), diffuse(0.5f));
   const RayScene rays(scene);
-  ReferenceSensor meter(scene, rays, floorSensor(vec3(0), 1e-3f, 2), {.photons = 1});
+  const Sensor sensor = floorSensor(vec3(0), 1e-3f, 2);
+  ReferenceSensor meter(scene, rays, sensor, {.photons = 1});
   return blockMeans(meter, {"direct.G"}, 1024, 2)[0][0];
 }
 

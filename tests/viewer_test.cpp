@@ -18,7 +18,6 @@
 #include "viewer/reference_worker.h"
 #include "viewer/scene_lines.h"
 #include "viewer/scene_state.h"
-#include "viewer/scene_time.h"
 
 namespace nephroid {
 namespace {
@@ -292,59 +291,6 @@ TEST(Preferences, AreKeptAndForgivenWhenTheyCannotBeRead) {
   EXPECT_EQ(loadPreferences(file).windowSize, ViewerPreferences{}.windowSize);
 }
 
-// A spot that swings and dims, and waves.
-constexpr const char* kMoving = R"([camera]
-position = [0, 1, 3]
-[[light]]
-type = "spot"
-position = [0, 3, 0]
-target = [0, 0, 0.5]
-intensity = 10
-dimmer = [[0, 1], [2, 0.5]]
-pan = [[0, 0], [2, 90]]
-[[material]]
-name = "water"
-type = "dielectric"
-[[object]]
-shape = "water"
-material = "water"
-grid = [8, 8]
-waves = [{ amplitude = 0.1, wavelength = 1, speed = 0.3 }]
-)";
-
-TEST(SceneTimes, MoveWhatMovesByItselfAsLoadingThenWould) {
-  Scene scene = readTomlScene(kMoving, "scene.toml", 0);
-  SceneState asLoaded = stateOf(scene);
-  History history(asLoaded);
-  WaveRuns waves;
-  moveTo(scene, asLoaded, history, kMoving, 1, waves);
-  const Scene then = readTomlScene(kMoving, "scene.toml", 1);
-  EXPECT_EQ(stateOf(scene), stateOf(then));
-  EXPECT_EQ(asLoaded, stateOf(then));
-  EXPECT_EQ(history.now(), stateOf(then));
-  EXPECT_TRUE(history.isSaved());
-  EXPECT_EQ(scene.meshes[0].positions, then.meshes[0].positions);
-}
-
-TEST(SceneTimes, LeaveWhatHandsChanged) {
-  Scene scene = readTomlScene(kMoving, "scene.toml", 0);
-  SceneState asLoaded = stateOf(scene);
-  scene.lights[0].direction = {1, 0, 0};
-  scene.lights[0].position = {5, 5, 5};
-  scene.lights[0].intensity *= 2;
-  History history(asLoaded);
-  history.add(stateOf(scene));
-  WaveRuns waves;
-  moveTo(scene, asLoaded, history, kMoving, 2, waves);
-  EXPECT_EQ(scene.lights[0].direction, vec3(1, 0, 0));
-  EXPECT_EQ(scene.lights[0].position, vec3(5, 5, 5));
-  EXPECT_NEAR(scene.lights[0].intensity.x, 10, 1e-4f);
-  EXPECT_EQ(history.now(), stateOf(scene));
-  EXPECT_FALSE(history.isSaved());
-  EXPECT_EQ(history.undo(), asLoaded);
-  EXPECT_TRUE(history.isSaved());
-}
-
 // What is looked at from elsewhere can be undone, and is no change that has to be saved; brightness is.
 TEST(Histories, TakeTheCameraBack) {
   Scene scene = ballScene();
@@ -358,26 +304,6 @@ TEST(Histories, TakeTheCameraBack) {
   history.undo();
   apply(history.undo(), scene);
   EXPECT_EQ(scene.camera, ballScene().camera);
-}
-
-TEST(Stones, FallIntoWaterAndAreTakenBack) {
-  Scene scene = readTomlScene(kMoving, "scene.toml", 0);
-  const std::vector<vec3> still = scene.meshes[0].positions;
-  History history(stateOf(scene));
-  ASSERT_TRUE(takesStones(scene.objects[0]));
-  dropStone(scene, 0, {0.1f, 0.2f});
-  history.add(stateOf(scene));
-  EXPECT_FALSE(history.isSaved());
-  SceneState asLoaded = stateOf(readTomlScene(kMoving, "scene.toml", 0));
-  WaveRuns waves;
-  moveTo(scene, asLoaded, history, kMoving, 0.5, waves);
-  const std::vector<vec3> moved = scene.meshes[0].positions;
-  apply(history.undo(), scene);
-  EXPECT_EQ(scene.meshes[0].positions, readTomlScene(kMoving, "scene.toml", 0.5).meshes[0].positions);
-  EXPECT_NE(scene.meshes[0].positions, moved);
-  apply(history.redo(), scene);
-  EXPECT_EQ(scene.meshes[0].positions, moved);
-  EXPECT_NE(still, moved);
 }
 
 TEST(SceneLines, BeamsLeaveTheBallAndSomeLightIsLost) {

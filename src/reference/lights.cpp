@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::size_t kMostTargets = 32;  // casters that are aimed at one by one
 
-float luminance(vec3 color) {
-  return dot(color, vec3(0.2126f, 0.7152f, 0.0722f));
-}
-
 struct Ball {
   vec3 center{0};
   float radius = 0;
@@ -102,14 +98,14 @@ void Lights::addShares(uint32_t index, const std::vector<Target>& targets) {
       const vec3 illuminance = light.type == LightType::directional
                                    ? light.illuminance
                                    : light.intensity * skies[skyOfLight[index]].illuminance();
-      flux = luminance(illuminance) * kPi * target.radius * target.radius;
+      flux = luminanceOf(illuminance) * kPi * target.radius * target.radius;
     } else {
       const float width = coneWidth(middleOf(light), target.center, target.radius);
       if (isSpot && width > coneWidth(light)) {
-        coneFlux = luminance(peakIntensity(light)) * 2 * kPi * coneWidth(light);
+        coneFlux = luminanceOf(peakIntensity(light)) * 2 * kPi * coneWidth(light);
         continue;
       }
-      flux = luminance(peakIntensity(light)) * 2 * kPi * width;
+      flux = luminanceOf(peakIntensity(light)) * 2 * kPi * width;
     }
     if (flux > 0) shares.push_back({index, target, flux, 0});
   }

@@ -7,6 +7,11 @@
 
 namespace nephroid {
 
+// How bright linear Rec. 709 is, in the unit that its channels are in.
+inline float luminanceOf(vec3 color) {
+  return dot(color, vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
 // A light with what its intensity in every direction has in common: made once, asked often. The scene must
 // outlive it.
 struct ShapedLight {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <numbers>
 
@@ -16,7 +17,8 @@ constexpr double kMostLineSamples = 4096;
 constexpr double kMostAreaSamples = 64;  // along a side
 constexpr Range kSkySamples{2, 4096};
 constexpr int64_t kDefaultSkySamples = 64;
-constexpr uint32_t kLargestGoboSide = 4096;  // pixels
+constexpr const char* kGoboPrefix = "gobo ";  // no imported texture is taken for one
+constexpr uint32_t kLargestGoboSide = 4096;   // pixels
 
 // What is not covered is dark, so alpha counts as black.
 Texture loadGobo(const std::filesystem::path& file) {
@@ -33,20 +35,23 @@ Texture loadGobo(const std::filesystem::path& file) {
   return gobo;
 }
 
-// The file that `key` names, as an index into `loaded`; kNone without the key. Lights of one file share it.
+// The file that `key` names, as an index into `loaded`, where its name stands after `prefix`; kNone without
+// the key. Lights of one file share it.
 template <class Named>
-uint32_t loadShared(TomlTable& table, const char* key, const Scene& scene, uint32_t Light::*index,
-                    std::vector<Named>& loaded, Named (*load)(const std::filesystem::path&)) {
+uint32_t loadShared(TomlTable& table, const char* key, const Scene& scene, std::vector<Named>& loaded,
+                    Named (*load)(const std::filesystem::path&), const std::string& prefix = {}) {
   const auto name = table.text(key);
   if (!name) return kNone;
   const auto path = scene.file.parent_path() / *name;
+  const std::string label = prefix + path.string();
+  const auto there = std::ranges::find(loaded, label, &Named::name);
+  if (there != loaded.end()) return static_cast<uint32_t>(there - loaded.begin());
   std::error_code error;
   if (!std::filesystem::exists(path, error))
     table.fail(key, "names \"" + path.string() + "\", which is not there");
-  for (const Light& other : scene.lights)
-    if (other.*index != kNone && loaded[other.*index].name == path.string()) return other.*index;
   try {
     loaded.push_back(load(path));
+    loaded.back().name = label;
   } catch (const InputError& wrong) {
     table.fail(key, std::string("is not to be used: ") + wrong.what());
   }
@@ -127,8 +132,8 @@ vec3 spotIntensity(TomlTable& table, const Light& light, const Scene& scene) {
 
 void readSpot(TomlTable& table, Light& light, Scene& scene) {
   light.position = table.requiredVector3("position");
-  light.goboTexture = loadShared(table, "gobo", scene, &Light::goboTexture, scene.textures, loadGobo);
-  light.profile = loadShared(table, "ies", scene, &Light::profile, scene.profiles, loadIes);
+  light.goboTexture = loadShared(table, "gobo", scene, scene.textures, loadGobo, kGoboPrefix);
+  light.profile = loadShared(table, "ies", scene, scene.profiles, loadIes);
   const auto direction = table.vector3("direction"), target = table.vector3("target");
   if (direction.has_value() == target.has_value()) {
     table.fail("direction", "or \"target\" must be there for a spot, and not both");
@@ -166,12 +171,14 @@ void readArea(TomlTable& table, Light& light) {
 }
 
 void readSky(TomlTable& table, Light& light, Scene& scene) {
-  light.skyMap = loadShared(table, "map", scene, &Light::skyMap, scene.skies, loadSky);
+  light.skyMap = loadShared(table, "map", scene, scene.skies, loadSky);
   const auto luminance = table.numberOrRgb("luminance", kNotNegative);
   if (light.skyMap == kNone) {
     if (!luminance) table.fail("luminance", "or \"map\" must be there for a sky");
-    light.skyMap = static_cast<uint32_t>(scene.skies.size());
-    scene.skies.push_back(evenSky());
+    const SkyMap even = evenSky();
+    const auto there = std::ranges::find(scene.skies, even.name, &SkyMap::name);
+    light.skyMap = static_cast<uint32_t>(there - scene.skies.begin());
+    if (there == scene.skies.end()) scene.skies.push_back(even);
   }
   light.intensity = luminance.value_or(vec3(1));
   light.skyRotation = static_cast<float>(table.numberAt("rotation", {-36000, 36000}, scene.time).value_or(0));

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/image_io.h"
+#include "scene/light_intensity.h"
 
 namespace nephroid {
 namespace {
@@ -17,10 +18,6 @@ constexpr uvec2 kEvenSkySize{64, 32};
 struct Region {
   uvec2 low{0}, high{0};
 };
-
-float brightness(vec3 luminance) {
-  return dot(luminance, vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 // Latitude (radians) of the upper edge of a row.
 float latitudeAbove(const SkyMap& sky, uint32_t row) {
@@ -35,10 +32,11 @@ class Cutter {
     if (parts == 0) return;
     if (parts > 1 && isDivisible(region)) {
       const auto [first, second, share] = halves(region);
-      const auto ofFirst = static_cast<uint32_t>(std::lround(share * double(parts)));
       const uint32_t fewest = share > 0 ? 1 : 0, most = share < 1 ? parts - 1 : parts;
-      cut(first, std::clamp(ofFirst, fewest, most));
-      cut(second, parts - std::clamp(ofFirst, fewest, most));
+      const uint32_t ofFirst =
+          std::clamp(static_cast<uint32_t>(std::lround(share * double(parts))), fewest, most);
+      cut(first, ofFirst);
+      cut(second, parts - ofFirst);
       return;
     }
     SkyPart part;
@@ -46,7 +44,7 @@ class Cutter {
     forEach(region, [&](uint32_t x, uint32_t y) {
       const vec3 illuminance = sky.luminance[std::size_t{y} * sky.size.x + x] * skyCellAngle(sky, y);
       part.illuminance += illuminance;
-      mean += brightness(illuminance) * towardSky((vec2(float(x), float(y)) + 0.5f) / vec2(sky.size));
+      mean += luminanceOf(illuminance) * towardSky((vec2(float(x), float(y)) + 0.5f) / vec2(sky.size));
     });
     if (part.illuminance == vec3(0)) return;
     part.direction = -normalize(mean);
@@ -81,7 +79,7 @@ class Cutter {
     std::vector<double> sums(size[axis], 0);
     forEach(region, [&](uint32_t x, uint32_t y) {
       sums[uvec2(x, y)[axis] - region.low[axis]] +=
-          double(brightness(sky.luminance[std::size_t{y} * sky.size.x + x]) * skyCellAngle(sky, y));
+          double(luminanceOf(sky.luminance[std::size_t{y} * sky.size.x + x]) * skyCellAngle(sky, y));
     });
     for (std::size_t i = 1; i < sums.size(); ++i) sums[i] += sums[i - 1];
     // The edge that parts the flux most evenly.
@@ -110,7 +108,7 @@ SkyMap loadSky(const std::filesystem::path& file) {
   }
   bool isDark = true;
   for (const vec3& luminance : sky.luminance) {
-    if (!(glm::all(glm::greaterThanEqual(luminance, vec3(0))) && brightness(luminance) < 1e12f))
+    if (!(glm::all(glm::greaterThanEqual(luminance, vec3(0))) && luminanceOf(luminance) < 1e12f))
       throw InputError("it has a luminance below 0 or without end; all of a sky must be from 0 to 1e12 nit");
     isDark = isDark && luminance == vec3(0);
   }

@@ -38,8 +38,25 @@ void follow(Light& light, const Light& was, const Light& is) {
   followStrength(light.illuminance, was.illuminance, is.illuminance);
 }
 
+// While it stands, one scene has the files of another's lights, which need not be read again then.
+class LentFiles {
+ public:
+  LentFiles(Scene& scene, Scene& other) : scene_(scene), other_(other) { exchange(); }
+  LentFiles(const LentFiles&) = delete;
+  LentFiles& operator=(const LentFiles&) = delete;
+  ~LentFiles() { exchange(); }
+
+ private:
+  void exchange() {
+    std::swap(scene_.textures, other_.textures);
+    std::swap(scene_.profiles, other_.profiles);
+    std::swap(scene_.skies, other_.skies);
+  }
+  Scene &scene_, &other_;
+};
+
 // Those that the file has at the scene's time, where any has a cue.
-std::vector<Light> lightsOfFile(const Scene& scene, const std::string& text) {
+std::vector<Light> lightsOfFile(Scene& scene, const std::string& text) {
   const toml::table root = parseToml(text, scene.file.string());
   const toml::array* tables = root.get_as<toml::array>("light");
   if (!tables || std::ranges::none_of(*tables, [](const toml::node& node) {
@@ -49,6 +66,7 @@ std::vector<Light> lightsOfFile(const Scene& scene, const std::string& text) {
   Scene then;
   then.file = scene.file;
   then.time = scene.time;
+  const LentFiles lent(scene, then);
   readLights(TomlTable(root, scene.file.string(), "").tables("light"), then);
   return then.lights;
 }

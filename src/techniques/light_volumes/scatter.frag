@@ -13,8 +13,9 @@ layout(push_constant, scalar) uniform Constants {
   ScatterConstants constants;
 };
 layout(set = 0, binding = 0) uniform texture2D wayStart;  // m; a = its length, 0 where there is none
-layout(set = 0, binding = 1) uniform texture2D
-    wayDirection;  // unit; a = part of what is scattered there that comes to the eye
+// Octahedral direction, away from the eye; part of what comes to the way's start that comes to the eye; m in the
+// volume before it.
+layout(set = 0, binding = 1) uniform texture2D wayDirection;
 layout(set = 0, binding = 2) uniform sampler2DArray layers;
 layout(location = 0) out vec4 luminance;
 
