@@ -10,6 +10,7 @@
 
 #include "optics/curved_triangle.h"
 #include "optics/refraction.h"
+#include "scene/framing.h"
 #include "scene/mesh_checks.h"
 
 namespace nephroid {
@@ -21,6 +22,7 @@ constexpr float kMostPieces = 5000;         // more pieces than this would be cu
 constexpr float kLongestStraightSide = 12;  // pixels: between nearer vertices rays are taken as they are
 constexpr float kLargestSide = 32;          // pixels: where sides are longer, most of the pieces are steady
 constexpr uint32_t kMostCuts = 8;
+constexpr float kMostBend = 0.5f;  // pixels that a side's middle may show off the mean of its ends
 // Rays that differ by more go different ways: in direction, and, as parts of the caster's size, in where they
 // leave it.
 constexpr float kMostTurn = 0.35f;
@@ -132,8 +134,8 @@ class Cutter {
     if (!sameWay(a, middle) || !sameWay(b, middle)) return true;
     const float pixel = view.pixelAngle * distance(middle.position, query.emitter.position);  // m
     return distance(middle.ray.direction, normalize(a.ray.direction + b.ray.direction)) >
-               2 * view.pixelAngle ||
-           distance(middle.ray.position, 0.5f * (a.ray.position + b.ray.position)) > pixel;
+               kMostBend * view.pixelAngle ||
+           distance(middle.ray.position, 0.5f * (a.ray.position + b.ray.position)) > kMostBend * pixel;
   }
 
   void refine(const Triangle& t, uint32_t cuts, std::vector<Triangle>& pieces) const {
@@ -178,7 +180,7 @@ struct Block {
   std::vector<uint32_t> indices;
   std::vector<Triangle> pieces;
   std::vector<Triangle> parting;  // to be cut
-  float squarePixels = 0;         // of their longest sides
+  float squarePixels = 0;         // of the longest sides of those whose rays part
 };
 
 class Collector {
@@ -199,6 +201,8 @@ class Collector {
                          object.placement.point(mesh.positions[i]),
                          object.placement.direction(mesh.normals[i]),
                          rays[i]});
+    const auto [low, high] = worldBounds(scene, object);
+    size = distance(low, high);
   }
 
   SightMesh collect() const {
@@ -284,6 +288,7 @@ class Collector {
     if (isOutside(view, whole)) return;
     for (int i = 0; i < 3; ++i) whole[std::size_t(i)].weights = mat3(1)[i];
     block.parting.push_back(whole);
+    if (isSteady(whole)) return;
     const float longest = std::min(longestSide(t), kLargestSide);
     block.squarePixels += longest * longest;
   }
@@ -294,7 +299,7 @@ class Collector {
   const Object& object;
   const Mesh& mesh;
   const float facing;  // -1 where the viewer is inside the caster
-  float size = 0;      // m, of the caster
+  float size = 0;      // m, across the caster
   std::vector<OutgoingRay> rays;
   std::vector<Corner> corners;
 };

@@ -33,13 +33,21 @@ shared uint beams[kThreads * kBeamsAThread];
 const float kMostHeight = 1;     // pixels, off the plane
 const float kLeastCosine = 0.9;  // between normals
 
-// m from one pixel to the next on the tangent plane; of its two neighbours the one that lies nearer to it.
+// m, what floats near a point tell well apart.
+float finestStep(vec3 point) {
+  const vec3 size = abs(point);
+  return 1e-6 * max(max(size.x, size.y), size.z);
+}
+
+// m from one pixel to the next on the tangent plane; of its two neighbours the one that lies nearer to it. None where a caster shows
+// both of them what it shows the pixel.
 vec3 stepAlong(ivec2 at, ivec2 along, vec3 point, vec3 normal) {
   const vec4 next = imageLoad(receiverPosition, at + along), last = imageLoad(receiverPosition, at - along);
   const vec3 forward = next.xyz - point, backward = point - last.xyz;
   const vec3 onward = forward - normal * dot(forward, normal), back = backward - normal * dot(backward, normal);
-  const float forwardOff = next.w != 0 ? abs(dot(forward, normal)) + 0.1 * length(onward) : 1e30;
-  const float backwardOff = last.w != 0 ? abs(dot(backward, normal)) + 0.1 * length(back) : 1e30;
+  const float forwardStep = length(onward), backwardStep = length(back), finest = finestStep(point);
+  const float forwardOff = next.w != 0 && forwardStep > finest ? abs(dot(forward, normal)) + 0.1 * forwardStep : 1e30;
+  const float backwardOff = last.w != 0 && backwardStep > finest ? abs(dot(backward, normal)) + 0.1 * backwardStep : 1e30;
   if (min(forwardOff, backwardOff) == 1e30) return vec3(0);
   return forwardOff <= backwardOff ? onward : back;
 }
@@ -51,8 +59,9 @@ ReceiverSquare squareAt(ivec2 at) {
   square.normal = normalize(imageLoad(receiverNormal, at).xyz);
   vec3 stepU = stepAlong(at, ivec2(1, 0), square.point, square.normal);
   vec3 stepV = stepAlong(at, ivec2(0, 1), square.point, square.normal);
-  // A pixel without neighbours is taken for a square.
-  if (stepU == vec3(0) && stepV == vec3(0)) stepU = 1e-3 * normalize(cross(square.normal, square.normal.yzx + vec3(0, 0, 1)));
+  // A pixel without neighbours is taken for a small square.
+  if (stepU == vec3(0) && stepV == vec3(0))
+    stepU = max(16 * finestStep(square.point), 1e-6) * normalize(cross(square.normal, square.normal.yzx + vec3(0, 0, 1)));
   if (stepU == vec3(0)) stepU = cross(stepV, square.normal);
   if (stepV == vec3(0)) stepV = cross(square.normal, stepU);
   vec3 area = cross(stepU, stepV);
