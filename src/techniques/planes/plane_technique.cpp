@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <numeric>
 
 #include "gpu/command_list.h"
 #include "shaders/deposit_comp.h"
@@ -67,6 +70,33 @@ TechniqueSettings settingsFor(const Scene& scene, TechniqueSettings settings) {
   return settings;
 }
 
+// For each portion of the light, texels along the sides of its textures: so that their sum stays bounded
+// however many ways light goes by reflection, those that carry less get fewer.
+std::vector<uint32_t> textureSizes(std::span<const std::vector<Beam>> portions, uint32_t full) {
+  constexpr std::size_t kAtFullSize = 8;  // the next 4 times, 16 times ... as many at a half, a quarter ...
+  constexpr uint32_t kFewestTexels = 32;
+  std::vector<double> fluxes;
+  for (const std::vector<Beam>& beams : portions) {
+    double sum = 0;
+    for (const Beam& beam : beams) sum += double(beam.flux.x + beam.flux.y + beam.flux.z);
+    fluxes.push_back(sum);
+  }
+  std::vector<std::size_t> byFlux(portions.size());
+  std::iota(byFlux.begin(), byFlux.end(), 0u);
+  std::ranges::stable_sort(byFlux, std::greater{}, [&](std::size_t i) { return fluxes[i]; });
+  std::vector<uint32_t> sizes(portions.size());
+  uint32_t size = full;
+  std::size_t last = kAtFullSize;
+  for (std::size_t rank = 0; rank < byFlux.size(); ++rank) {
+    if (rank == last && size / 2 >= kFewestTexels) {
+      size /= 2;
+      last *= 4;
+    }
+    sizes[byFlux[rank]] = size;
+  }
+  return sizes;
+}
+
 }  // namespace
 
 PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechniqueTraits& traitsOf)
@@ -86,26 +116,32 @@ PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechn
                     shadeProgram(device, "caustics in color", 3, settings)},
       texelSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {}
 
-void PlaneTechnique::addLit(std::vector<Beam> portion, std::span<const ReceiverBox> boxes) {
-  LitPlanes own{std::move(portion), {}, 3};
-  own.planes = traits.plan(transport.scene(), own.beams, boxes, settings);
-  if (own.planes.planes == 0) return;
-  own.channels = areOfOneColor(own.beams) ? 1 : 3;
-  lit.push_back(std::move(own));
+std::vector<std::vector<Beam>> PlaneTechnique::portionsOfLight(std::span<const ReceiverBox> boxes) const {
+  const Scene& scene = transport.scene();
+  std::vector<std::vector<Beam>> portions;
+  for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths, casters)) {
+    std::vector<Beam> all = refinedBeams(scene, source, queries, boxes, settings);
+    if (!traits.goesAlongAxis)
+      portions.push_back(std::move(all));
+    else
+      std::ranges::move(portionsByAxis(std::move(all), boxes), std::back_inserter(portions));
+  }
+  return portions;
 }
 
 void PlaneTechnique::update(GpuScene&) {
-  const Scene& scene = transport.scene();
-  const std::vector<ReceiverBox> boxes = receiverBoxes(scene);
+  const std::vector<ReceiverBox> boxes = receiverBoxes(transport.scene());
+  std::vector<std::vector<Beam>> portions = portionsOfLight(boxes);
+  const std::vector<uint32_t> sizes = textureSizes(portions, settings.textureSize);
   lit.clear();
-  for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths, casters)) {
-    std::vector<Beam> all = refinedBeams(scene, source, queries, boxes, settings);
-    if (!traits.goesAlongAxis) {
-      addLit(std::move(all), boxes);
-      continue;
-    }
-    for (std::vector<Beam>& portion : portionsByAxis(std::move(all), boxes))
-      addLit(std::move(portion), boxes);
+  for (std::size_t i = 0; i < portions.size(); ++i) {
+    LitPlanes own{std::move(portions[i]), {}, sizes[i], 3};
+    TechniqueSettings ofPortion = settings;
+    ofPortion.textureSize = own.textureSize;
+    own.planes = traits.plan(transport.scene(), own.beams, boxes, ofPortion);
+    if (own.planes.planes == 0) continue;
+    own.channels = areOfOneColor(own.beams) ? 1 : 3;
+    lit.push_back(std::move(own));
   }
   std::size_t beamCount = 0;
   for (const LitPlanes& own : lit) beamCount += own.beams.size();
@@ -153,18 +189,19 @@ std::vector<PassOutput> PlaneTechnique::outputs() const {
 }
 
 void PlaneTechnique::ensureImages(std::size_t set) {
+  const uint32_t size = lit[set].textureSize;
   const auto image = [&](const char* name, VkFormat format, uint32_t layers) {
-    return gpu::createImage(
-        device, name,
-        {.format = format, .width = settings.textureSize, .height = settings.textureSize, .layers = layers});
+    return gpu::createImage(device, name,
+                            {.format = format, .width = size, .height = size, .layers = layers});
   };
   PlaneImages& own = images[set];
-  if (!own.depths) {
+  if (!own.depths || own.depths.width() != size) {
+    own = {};
     own.normals = image("receivers' normals", VK_FORMAT_R32_UINT, kWindows);
     own.depths = image("receivers' depths", VK_FORMAT_D32_SFLOAT, kWindows);
   }
   const uint32_t layers = layersOfChannel(lit[set].planes) * lit[set].channels;
-  if (own.textures.layerCount() < layers)
+  if (!own.textures || own.textures.layerCount() < layers)
     own.textures = image("illumination textures", VK_FORMAT_R32_UINT, layers);
 }
 
@@ -172,7 +209,7 @@ void PlaneTechnique::drawReceivers(gpu::CommandList& commands, const GpuScene& g
   const PlaneImages& own = images[set];
   const PlaneSet& planes = lit[set].planes;
   for (uint32_t window = 0; window < kWindows; ++window) {
-    ViewConstants constants = viewOf(planes, window, settings.textureSize);
+    ViewConstants constants = viewOf(planes, window, lit[set].textureSize);
     constants.vertices = gpuScene.vertices();
     constants.objects = gpuScene.objects();
     commands.render({.colors = {{&own.normals, window, vec4(0)}},
@@ -195,7 +232,7 @@ void PlaneTechnique::deposit(gpu::CommandList& commands, std::size_t set, VkDevi
     const auto count = uint32_t(std::min(all - first, kMostBeamsADispatch));
     commands.dispatch(
         depositPrograms[lit[set].channels == 3], {count, 1, 1},
-        DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), count, float(settings.textureSize)},
+        DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), count, float(lit[set].textureSize)},
         {own.depths, own.normals, own.textures});
   }
 }
@@ -223,7 +260,7 @@ void PlaneTechnique::shade(gpu::CommandList& commands, const ReceiverPoints& poi
   drawCaustics(commands, points, causticsLux, [&] {
     for (std::size_t set = 0; set < lit.size(); ++set)
       commands.draw(shadePrograms[lit[set].channels == 3], 3, 1,
-                    ShadeConstants{lit[set].planes, float(settings.textureSize)},
+                    ShadeConstants{lit[set].planes, float(lit[set].textureSize)},
                     {*points.position,
                      *points.normal,
                      {images[set].depths, texelSampler},

@@ -43,6 +43,7 @@ class PlaneTechnique final : public Technique {
   struct LitPlanes {
     std::vector<Beam> beams;
     PlaneSet planes{};
+    uint32_t textureSize = 0;
     uint32_t channels = 3;  // of the textures: one where all beams have the same colour
   };
   struct PlaneImages {
@@ -52,7 +53,7 @@ class PlaneTechnique final : public Technique {
     gpu::Image textures;  // units of flux, layers as textureIndex has them
   };
 
-  void addLit(std::vector<Beam> portion, std::span<const ReceiverBox> boxes);
+  std::vector<std::vector<Beam>> portionsOfLight(std::span<const ReceiverBox> boxes) const;
   void upload();
   void ensureImages(std::size_t set);
   void drawReceivers(gpu::CommandList& commands, const GpuScene& gpuScene, std::size_t set);
