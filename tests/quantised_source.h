@@ -33,7 +33,7 @@ class QuantisedSource : public TransportSource {
       ray.transmittance = vec3(quantised(ray.transmittance.x));
     }
   }
-  bool refines() const override { return false; }
+  bool refines(const TransportQuery&) const override { return false; }
   OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override {
     return traced.rayAt(query, point);
   }

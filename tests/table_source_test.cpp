@@ -76,6 +76,24 @@ TEST(TableSource, MotionOfCasterReceiverAndLightTracesNoRay) {
   EXPECT_EQ(raysTraced(), before);
 }
 
+// A table knows smooth glass by itself.
+TEST(Tables, AreOfNoWaterNorFacetsNorWhatHoldsAnother) {
+  Scene scene = ballOverFloor(1, {3, 3.5f, 0});
+  EXPECT_TRUE(hasTable(scene, scene.objects[0]));
+  EXPECT_FALSE(hasTable(scene, scene.objects[1]));
+  Scene box = scene;
+  box.meshes[0] = makeBox({1, 1, 1});
+  EXPECT_FALSE(hasTable(box, box.objects[0]));
+  Scene water = scene;
+  water.objects[0].water = Water{};
+  EXPECT_FALSE(hasTable(water, water.objects[0]));
+  Scene nested = scene;
+  nested.objects.push_back(scene.objects[0]);
+  nested.objects[2].placement.scale = 0.5f;
+  EXPECT_FALSE(hasTable(nested, nested.objects[0]));
+  EXPECT_TRUE(hasTable(nested, nested.objects[2]));
+}
+
 // Of the light of the first emitter that meets an object's vertices and is not lost: lm or lux, for a
 // comparison of sources.
 struct VertexLight {

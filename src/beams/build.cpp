@@ -3,11 +3,13 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "optics/curved_triangle.h"
 #include "scene/air.h"
+#include "scene/mesh_checks.h"
 
 namespace nephroid {
 namespace {
@@ -17,7 +19,7 @@ constexpr float kCoarseFraction = 1.0f / 24;
 constexpr uint32_t kMaximumForcedCuts = 7;
 constexpr std::size_t kBlock = 64;  // triangles whose beams one task makes
 // Rays of a cut triangle start this part of the way toward its middle, off edges where two surfaces meet.
-constexpr float kInset = 1e-3f;
+constexpr float kInset = 1e-3f, kInsetOnEdges = 5e-3f;
 
 struct Corner {
   vec3 weights{0};          // barycentric, in the mesh's triangle
@@ -107,6 +109,7 @@ struct VertexRays {
   std::vector<OutgoingRay> rays;
   std::vector<uint32_t>
       steadyTriangles;  // for each vertex a triangle about it whose rays all go one way, if there is one
+  bool areOnEdges;      // of facets, where a ray may go the way of the facet beside
 
   void findSteadyTriangles() {
     steadyTriangles.assign(rays.size(), kNone);
@@ -136,12 +139,15 @@ class Builder {
         vertices(verticesOf),
         facing(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f) {}
 
-  void add(const Triangle& triangle, uint32_t forcedCuts, BeamSet& set) const {
+  void add(Triangle triangle, uint32_t forcedCuts, BeamSet& set) const {
     const vec3 flux = incident(triangle);
     if (!(flux.x + flux.y + flux.z > 0)) return;
     set.incidentFlux += flux;
     ++set.triangles;
-    if (source.refines() && forcedCuts > 0) {
+    if (vertices.areOnEdges && source.refines(query) && !sameWay(triangle))
+      for (Corner& corner : triangle)
+        corner = {corner.weights, corner.position, kNone, rayWithin(triangle, corner.weights)};
+    if (source.refines(query) && forcedCuts > 0) {
       cut(triangle, settings.refineDepth, forcedCuts, set);
     } else {
       refine(triangle, settings.refineDepth, set);
@@ -172,13 +178,24 @@ class Builder {
             (t[0].ray.signature == t[1].ray.signature && t[0].ray.signature == t[2].ray.signature));
   }
 
+  static bool leavesWhereItMeets(const Triangle& t) {
+    const float tolerance = 0.01f * distance(t[0].position, t[1].position);
+    return std::ranges::all_of(
+        t, [&](const Corner& corner) { return distance(corner.ray.position, corner.position) < tolerance; });
+  }
+
   Corner between(const Triangle& t, const Corner& a, const Corner& b) const {
     Corner middle;
     middle.weights = 0.5f * (a.weights + b.weights);
     middle.position = surface.at(middle.weights).position;
-    const vec3 center = (t[0].weights + t[1].weights + t[2].weights) / 3.0f;
-    middle.ray = source.rayAt(query, surface.at(mix(middle.weights, center, kInset)));
+    middle.ray = rayWithin(t, middle.weights);
     return middle;
+  }
+
+  OutgoingRay rayWithin(const Triangle& t, vec3 weights) const {
+    const vec3 center = (t[0].weights + t[1].weights + t[2].weights) / 3.0f;
+    return source.rayAt(query,
+                        surface.at(mix(weights, center, vertices.areOnEdges ? kInsetOnEdges : kInset)));
   }
 
   // Whether the ray at a side's middle lies off the middle of the rays at its ends by more than the
@@ -197,10 +214,10 @@ class Builder {
   }
 
   void refine(const Triangle& t, uint32_t depth, BeamSet& set) const {
-    if (!source.refines() || depth == 0) return emit(t, set);
+    if (!source.refines(query) || depth == 0) return emit(t, set);
     if (!sameWay(t)) return cut(t, depth - 1, 0, set);
     if (!arrives(t[0].ray)) return;
-    if (settings.targets.empty()) return emit(t, set);
+    if (settings.targets.empty() || (settings.isEvenAtSurface && leavesWhereItMeets(t))) return emit(t, set);
     const std::array<Corner, 3> middles = middlesOf(t);
     bool keep = true;
     for (int i = 0; i < 3 && keep; ++i)
@@ -359,7 +376,8 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
                    vec3 bandColor, const BeamSettings& settings) {
   const Object& object = scene.objects[query.object];
   const Mesh& mesh = scene.meshOf(object);
-  VertexRays vertices{mesh, object.placement, std::vector<OutgoingRay>(mesh.positions.size()), {}};
+  VertexRays vertices{
+      mesh, object.placement, std::vector<OutgoingRay>(mesh.positions.size()), {}, isFaceted(mesh)};
   source.vertexRays(query, vertices.rays);
   vertices.findSteadyTriangles();
 

@@ -20,6 +20,8 @@ struct BeamSettings {
   float refineTolerance = 0.1f;
   // Planes on which bending is judged. Without any, triangles are cut where their corners' rays part, alone.
   std::vector<PlaneGrid> targets;
+  // Only rays that go on through other casters are taken to bend.
+  bool isEvenAtSurface = false;
   // Light is wanted on the first target itself, so rays that meet an opaque surface before it carry none.
   bool stopAtSurfaces = false;
   // The part of a cell of water's corners that may be in shadow before the cell passes no light (Barczak and

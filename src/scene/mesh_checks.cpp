@@ -1,6 +1,7 @@
 #include "scene/mesh_checks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 
@@ -177,6 +178,22 @@ std::pair<vec3, vec3> boundingBox(const Mesh& mesh) {
     }
   }
   return {lower, upper};
+}
+
+bool isFaceted(const Mesh& mesh) {
+  constexpr float kEven = 1 - 1e-6f;  // cosine
+  double area = 0, evenArea = 0;
+  for (const uvec3& t : mesh.triangles) {
+    const vec3 a = mesh.positions[t.x];
+    const vec3 doubledArea = cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+    const float doubled = length(doubledArea);
+    area += double(doubled);
+    const bool isEven = std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](uint32_t corner) {
+      return dot(mesh.normals[corner], doubledArea) >= kEven * doubled;
+    });
+    if (isEven) evenArea += double(doubled);
+  }
+  return evenArea > 0.5 * area;
 }
 
 void finishMesh(Mesh& mesh, const std::string& source) {

@@ -28,6 +28,9 @@ std::vector<uint32_t> joinEqualPositions(const std::vector<vec3>& positions);
 // Lower and upper corner of what the triangles use.
 std::pair<vec3, vec3> boundingBox(const Mesh& mesh);
 
+// Whether more than half of the surface is of flat facets, like that of a box or a cut gem.
+bool isFaceted(const Mesh& mesh);
+
 // Makes a mesh ready for use, in place: checks that indices are in range and positions finite, merges equal
 // vertices, leaves out vertices that are not used and triangles without an area (counted in
 // droppedTriangles), sets isClosed, and makes the normals unit, or averages them by area from the faces at

@@ -3,12 +3,16 @@
 #include <algorithm>
 
 #include "scene/emitters.h"
+#include "scene/mesh_checks.h"
 
 namespace nephroid {
 namespace {
 
 // Cosine between the directions from which points of a line light that share planes shine.
 constexpr float kNearlyOneDirection = 0.8f;
+// How many times a cell of water may be divided more often than a triangle of glass, where glass stands in
+// it.
+constexpr uint32_t kCutsBeyondWaves = 2;
 
 vec3 centerOf(const Scene& scene, const Object& object) {
   const std::vector<vec3>& positions = scene.meshOf(object).positions;
@@ -28,6 +32,12 @@ std::size_t endOfLamp(vec3 center, std::span<const Emitter> emitters, std::size_
          dot(emitterDirection(emitters[last], center), direction) >= kNearlyOneDirection)
     ++last;
   return last;
+}
+
+bool hasOtherCasters(const Scene& scene, const Object& object) {
+  return std::ranges::any_of(scene.objects, [&](const Object& other) {
+    return &other != &object && scene.isCaster(other) && !other.water;
+  });
 }
 
 bool isAmong(const Object& object, Casters casters) {
@@ -90,14 +100,16 @@ std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source
                                std::span<const BandQuery> queries, std::span<const ReceiverBox> boxes,
                                const TechniqueSettings& settings) {
   BeamSettings refined{.refineDepth = 0, .targets = {}};
-  const bool isWater = scene.objects[queries.front().query.object].water.has_value();
-  if (isWater) {
-    refined.refineDepth = settings.refineDepth;
-    refined.shadowTolerance = settings.shadowTolerance;
-  }
+  const TransportQuery& query = queries.front().query;
+  const Object& object = scene.objects[query.object];
+  const bool isWater = object.water.has_value();
+  // Water's cells are as fine as its waves, and a facet does not bend: their rays part, where they do at all.
+  const bool isEven = isWater || isFaceted(scene.meshOf(object));
+  if (isEven) refined.refineDepth = settings.refineDepth;
+  if (isWater) refined.shadowTolerance = settings.shadowTolerance;
   std::vector<Beam> beams = beamsOf(scene, source, queries, refined);
-  // The grid of water is as fine as its waves.
-  if (isWater || !source.refines() || settings.refineDepth == 0) return beams;
+  const bool isDone = isEven && !hasOtherCasters(scene, object);
+  if (isDone || !source.refines(query) || settings.refineDepth == 0) return beams;
   const std::vector<std::vector<Beam>> portions = portionsByAxis(std::move(beams), boxes);
   for (const std::vector<Beam>& portion : portions) {
     const PlaneSet along = planAlongLight(portion, boxes, 2, settings.textureSize);
@@ -106,8 +118,9 @@ std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source
     refined.targets.push_back(planeGrid(along, along.planes - 1, 0));
   }
   if (refined.targets.empty()) return joined(portions);
-  refined.refineDepth = settings.refineDepth;
+  refined.refineDepth = settings.refineDepth + (isWater ? kCutsBeyondWaves : 0);
   refined.refineTolerance = 0.5f;
+  refined.isEvenAtSurface = isWater;
   return beamsOf(scene, source, queries, refined);
 }
 

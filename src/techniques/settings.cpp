@@ -26,7 +26,9 @@ std::span<const ChoiceField> choiceFields() {
   using Settings = TechniqueSettings;
   static const ChoiceField kFields[] = {
       choice<&Settings::source>(
-          "source", "Where the rays that leave a caster come from: a light transport table, or traced now"),
+          "source",
+          "Where the rays that leave a caster come from: a light transport table, where smooth glass without "
+          "anything in it allows one, or traced now"),
       choice<&Settings::paths>(
           "paths", "Light followed by refraction alone, or by reflection outside and inside as well", true),
       choice<&Settings::interpolation>(

@@ -41,9 +41,9 @@ class TransportSource {
   // The outgoing ray for every vertex of the caster's mesh, in the mesh's order.
   virtual void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const = 0;
 
-  // Whether light's rays can be had anywhere on the surface, and not at the vertices alone. Those of sight
-  // always can.
-  virtual bool refines() const = 0;
+  // Whether light's rays can be had anywhere on the caster's surface, and not at the vertices alone. Those of
+  // sight always can.
+  virtual bool refines(const TransportQuery& query) const = 0;
   virtual OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const = 0;
 };
 

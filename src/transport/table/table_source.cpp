@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "scene/framing.h"
+#include "scene/mesh_checks.h"
+
 namespace nephroid {
 namespace {
 
@@ -25,11 +28,21 @@ bool mayHide(const Scene& scene) {
   return false;
 }
 
+bool holdsAnother(const Scene& scene, const Object& object) {
+  const std::pair<vec3, vec3> bounds = worldBounds(scene, object);
+  return std::ranges::any_of(scene.objects, [&](const Object& other) {
+    if (&other == &object) return false;
+    const auto [low, high] = worldBounds(scene, other);
+    return glm::all(glm::greaterThan(low, bounds.first)) && glm::all(glm::lessThan(high, bounds.second));
+  });
+}
+
 }  // namespace
 
 bool hasTable(const Scene& scene, const Object& object) {
   const Material& material = scene.materialOf(object);
-  return material.type == MaterialType::dielectric && !material.thinWalled;
+  return material.type == MaterialType::dielectric && !material.thinWalled && !object.water &&
+         !isFaceted(scene.meshOf(object)) && !holdsAnother(scene, object);
 }
 
 TableSource::TableSource(const Scene& sceneOfTables, std::vector<std::optional<TransportTable>> tableOfObject,
@@ -37,7 +50,18 @@ TableSource::TableSource(const Scene& sceneOfTables, std::vector<std::optional<T
     : scene(sceneOfTables),
       tables(std::move(tableOfObject)),
       traced(tracedSource),
-      mayReceiversHide(mayHide(sceneOfTables)) {}
+      mayReceiversHide(mayHide(sceneOfTables)) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const Object& object = scene.objects[i];
+    const bool isMirror = scene.materialOf(object).type == MaterialType::mirror;
+    isRefined.push_back(!tables[i] && (!isMirror || isFaceted(scene.meshOf(object))));
+  }
+}
+
+// A mirror's vertices tell most of what it does, as a table's do.
+bool TableSource::refines(const TransportQuery& query) const {
+  return isRefined[query.object];
+}
 
 bool TableSource::isTabulated(const TransportQuery& query) const {
   return tables[query.object] && (query.paths == Paths::transmission || query.isSight) &&

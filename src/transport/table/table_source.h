@@ -10,7 +10,8 @@
 
 namespace nephroid {
 
-// Whether light through the object can be tabulated: it is of a clear material with a volume.
+// Whether light through the object can be tabulated: it is of a clear material with a volume that no other
+// object stands in, neither water, whose surface moves, nor faceted like a box or a cut gem.
 bool hasTable(const Scene& scene, const Object& object);
 
 // Rays looked up at the vertices of casters that have a table, wherever they stand. A table knows its caster
@@ -25,7 +26,7 @@ class TableSource : public TransportSource {
               const TracedSource& traced);
 
   void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const override;
-  bool refines() const override { return false; }
+  bool refines(const TransportQuery& query) const override;
   OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override;
 
  private:
@@ -35,6 +36,7 @@ class TableSource : public TransportSource {
 
   const Scene& scene;
   std::vector<std::optional<TransportTable>> tables;
+  std::vector<bool> isRefined;  // of objects
   const TracedSource& traced;
   const bool mayReceiversHide;
 };

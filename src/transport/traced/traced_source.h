@@ -17,7 +17,7 @@ class TracedSource : public TransportSource {
   TracedSource(const Scene& scene, const RayScene& rays);
 
   void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const override;
-  bool refines() const override { return true; }
+  bool refines(const TransportQuery&) const override { return true; }
   OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const override;
 
   // The ray at one vertex of the caster's mesh.
