@@ -264,6 +264,16 @@ TEST_F(LightVolumesGpuTest, TheHierarchyChangesNothing) {
 }
 
 // What stands in the water hides what lies behind it along the refracted light.
+// Half a million beams for each of the few pixels: more than a software device goes through at once.
+TEST_F(LightVolumesGpuTest, NoBeamOfManyIsLost) {
+  Water water;
+  water.size = {1, 1};
+  water.grid = {500, 500};
+  const Sensor sensor{"bed", {-0.49f, -0.1f, -0.49f}, {0.98f, 0, 0}, {0, 0, 0.98f}, {8, 8}};
+  for (const double lux : measure(waterOverBed(water, 0.1f, {0, -1, 0}), sensor))
+    EXPECT_NEAR(lux, kLux * transmittance(1), 0.005 * kLux);
+}
+
 TEST_F(LightVolumesGpuTest, WhatStandsInWaterCastsAShadowAlongTheRefractedLight) {
   Water water;
   water.size = {6, 6};

@@ -26,7 +26,7 @@ inline std::vector<double> blocksOf(const SensorLayer& layer, int channel) {
 }
 
 inline void expectMean(const std::vector<double>& blocks, const std::vector<SampleMean>& reference,
-                       const char* what) {
+                       const char* what, double modelError = kModelError) {
   double mean = 0, chiSquare = 0;
   for (const SampleMean& block : reference) mean += block.mean() / double(reference.size());
   if (mean == 0) {
@@ -35,7 +35,7 @@ inline void expectMean(const std::vector<double>& blocks, const std::vector<Samp
   }
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const double error =
-        std::hypot(reference[i].standardError(), kModelError * mean, kModelError * reference[i].mean());
+        std::hypot(reference[i].standardError(), modelError * mean, modelError * reference[i].mean());
     chiSquare += std::pow((blocks[i] - reference[i].mean()) / error, 2);
   }
   EXPECT_LE(chiSquare, chiSquareLimit(double(blocks.size()))) << what;

@@ -376,8 +376,11 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
                    vec3 bandColor, const BeamSettings& settings) {
   const Object& object = scene.objects[query.object];
   const Mesh& mesh = scene.meshOf(object);
-  VertexRays vertices{
-      mesh, object.placement, std::vector<OutgoingRay>(mesh.positions.size()), {}, isFaceted(mesh)};
+  VertexRays vertices{mesh,
+                      object.placement,
+                      std::vector<OutgoingRay>(mesh.positions.size()),
+                      {},
+                      facetedPart(mesh) >= kPartWithEdges};
   source.vertexRays(query, vertices.rays);
   vertices.findSteadyTriangles();
 

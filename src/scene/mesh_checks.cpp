@@ -180,7 +180,7 @@ std::pair<vec3, vec3> boundingBox(const Mesh& mesh) {
   return {lower, upper};
 }
 
-bool isFaceted(const Mesh& mesh) {
+float facetedPart(const Mesh& mesh) {
   constexpr float kEven = 1 - 1e-6f;  // cosine
   double area = 0, evenArea = 0;
   for (const uvec3& t : mesh.triangles) {
@@ -193,7 +193,7 @@ bool isFaceted(const Mesh& mesh) {
     });
     if (isEven) evenArea += double(doubled);
   }
-  return evenArea > 0.5 * area;
+  return area > 0 ? float(evenArea / area) : 0;
 }
 
 void finishMesh(Mesh& mesh, const std::string& source) {

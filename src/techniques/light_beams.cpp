@@ -52,9 +52,10 @@ void addPortions(std::vector<BandQuery> queries, std::vector<std::vector<BandQue
   }
 }
 
-std::vector<Beam> joined(const std::vector<std::vector<Beam>>& portions) {
+std::vector<Beam> joined(const std::vector<LightPortion>& portions) {
   std::vector<Beam> all;
-  for (const std::vector<Beam>& portion : portions) all.insert(all.end(), portion.begin(), portion.end());
+  for (const LightPortion& portion : portions)
+    all.insert(all.end(), portion.beams.begin(), portion.beams.end());
   return all;
 }
 
@@ -104,14 +105,14 @@ std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source
   const Object& object = scene.objects[query.object];
   const bool isWater = object.water.has_value();
   // Water's cells are as fine as its waves, and a facet does not bend: their rays part, where they do at all.
-  const bool isEven = isWater || isFaceted(scene.meshOf(object));
+  const bool isEven = isWater || facetedPart(scene.meshOf(object)) > 0.99f;
   if (isEven) refined.refineDepth = settings.refineDepth;
   if (isWater) refined.shadowTolerance = settings.shadowTolerance;
   std::vector<Beam> beams = beamsOf(scene, source, queries, refined);
   const bool isDone = isEven && !hasOtherCasters(scene, object);
   if (isDone || !source.refines(query) || settings.refineDepth == 0) return beams;
-  const std::vector<std::vector<Beam>> portions = portionsByAxis(std::move(beams), boxes);
-  for (const std::vector<Beam>& portion : portions) {
+  const std::vector<LightPortion> portions = portionsByAxis(std::move(beams), boxes);
+  for (const LightPortion& portion : portions) {
     const PlaneSet along = planAlongLight(portion, boxes, 2, settings.textureSize);
     if (along.planes == 0) continue;
     refined.targets.push_back(planeGrid(along, 0, 0));

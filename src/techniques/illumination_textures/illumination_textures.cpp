@@ -5,9 +5,9 @@
 namespace nephroid {
 namespace {
 
-PlaneSet plan(const Scene&, std::span<const Beam> beams, std::span<const ReceiverBox> boxes,
+PlaneSet plan(const Scene&, const LightPortion& portion, std::span<const ReceiverBox> boxes,
               const TechniqueSettings& settings) {
-  return planAlongLight(beams, boxes, std::max(settings.planes, 1u), settings.textureSize);
+  return planAlongLight(portion, boxes, std::max(settings.planes, 1u), settings.textureSize);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "techniques/light_volumes/light_volumes.h"
 
 #include <algorithm>
+#include <span>
 
 #include "beams/tree.h"
 #include "gpu/command_list.h"
@@ -17,7 +18,7 @@ namespace nephroid {
 namespace {
 
 struct Counts {
-  uint32_t tested, culled, drawn, wanted;
+  uint32_t tested, culled, drawn, wanted, unfinished;
 };
 
 // Draws that a frame starts with room for: more than most need.
@@ -74,7 +75,8 @@ class LightVolumes final : public Technique {
   const TransportSource& source;
   gpu::Program patches, beamOnPatch;
   gpu::Buffer counts, countsRead;
-  bool isFirstView = true;  // of the frame being made
+  bool isFirstView = true;    // of the frame being made
+  uint32_t levelOfRoots = 0;  // of the hierarchy, from where its parts are taken one after the other
   gpu::Buffer draws, noDraws, command;
   gpu::Image axesU, axesV;  // of the squares that pixels show
 
@@ -111,6 +113,24 @@ LightVolumes::LightVolumes(const TechniqueContext& context)
       command(gpu::createBuffer(device, "draws of beams", sizeof(BeamDrawCommand))),
       scattered(device) {
   noDraws.write(std::vector{kNoDraws});
+}
+
+// The groups of bounds so many levels below the root; those of beams where the tree ends before.
+std::vector<uint32_t> rootsBelow(const BeamTree& tree, uint32_t levels) {
+  std::vector<uint32_t> roots{tree.root};
+  for (uint32_t level = 0; level < levels; ++level) {
+    std::vector<uint32_t> next;
+    for (const uint32_t root : roots) {
+      const auto parts = std::span(tree.bounds).subspan(root, kChildren);
+      if (std::ranges::any_of(parts, [](const BeamBounds& part) { return (part.kind & kIsBeam) != 0; }))
+        next.push_back(root);
+      else
+        for (const BeamBounds& part : parts)
+          if (part.nearest <= part.farthest) next.push_back(part.first);
+    }
+    roots = next;
+  }
+  return roots;
 }
 
 vec3 downInto(const Object& water) {
@@ -182,7 +202,6 @@ void LightVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& point
   listing.draws = draws.address();
   listing.command = command.address();
   listing.room = uint32_t(draws.size() / sizeof(BeamDraw));
-  listing.root = tree.root;
   listing.corner = region.corner;
   listing.size = ivec2(region.size);
   const BeamDrawConstants drawing{portionsRead.address(), draws.address(), vec2(imageSize)};
@@ -190,10 +209,13 @@ void LightVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& point
     commands.copy(noDraws, command, sizeof(BeamDrawCommand));
     if (isFirstView) commands.fill(counts, 0);
     isFirstView = false;
-    commands.barrier();
-    commands.dispatch(patches, {(tiles.x + kTilesInGroup - 1) / kTilesInGroup * kThreads, tiles.y, 1},
-                      listing,
-                      {*points.position, *points.normal, axesU, axesV, bounds.image(), beams.image()});
+    for (const uint32_t root : rootsBelow(tree, levelOfRoots)) {
+      listing.root = root;
+      commands.barrier();
+      commands.dispatch(patches, {(tiles.x + kTilesInGroup - 1) / kTilesInGroup * kThreads, tiles.y, 1},
+                        listing,
+                        {*points.position, *points.normal, axesU, axesV, bounds.image(), beams.image()});
+    }
   });
   drawCaustics(commands, points, causticsLux, [&] {
     commands.drawIndirect(beamOnPatch, command, drawing, {*points.position, axesU, axesV, beams.image()});
@@ -210,9 +232,10 @@ bool LightVolumes::finish() {
   setCount(stats, "bounds_culled", counted.culled);
   setCount(stats, "volumes_drawn", counted.drawn);
   if (scattered.count() > 0) setCount(stats, "volumes_in_layers", scattered.count());
-  if (counted.wanted == 0) return true;
-  gpu::ensureBuffer(device, draws, "beams on patches", counted.wanted * sizeof(BeamDraw));
-  return false;
+  if (counted.unfinished > 0) ++levelOfRoots;
+  if (counted.wanted > 0)
+    gpu::ensureBuffer(device, draws, "beams on patches", counted.wanted * sizeof(BeamDraw));
+  return counted.unfinished == 0 && counted.wanted == 0;
 }
 
 }  // namespace

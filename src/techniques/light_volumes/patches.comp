@@ -270,6 +270,7 @@ void listBeamsOf(Patch shown, ivec2 tile, uint id, inout uint tested, inout uint
   if (thread() < waitingGroups) groups[firstGroup + thread()] = constants.root + thread() * threadsOfGroup;
   subgroupMemoryBarrierShared();
   subgroupBarrier();
+  bool isCutShort = false;
   do {
     uint waitingBeams = 0;
     while (waitingGroups > 0 && waitingBeams <= threads * (kBeamsAThread - 1)) {
@@ -297,11 +298,15 @@ void listBeamsOf(Patch shown, ivec2 tile, uint id, inout uint tested, inout uint
       subgroupMemoryBarrierShared();
       subgroupBarrier();
     }
-    for (uint begin = 0; begin < waitingBeams; begin += threads)
+    uint begin = 0;
+    for (; begin < waitingBeams; begin += threads)
       list(beams[firstBeam + min(begin + thread(), waitingBeams - 1)], begin + thread() < waitingBeams, tile, id, shown);
+    isCutShort = isCutShort || begin < waitingBeams;
     subgroupMemoryBarrierShared();
     subgroupBarrier();
   } while (waitingGroups > 0);
+  // A software device leaves all loops of a thread after 65,535 rounds.
+  if (thread() == 0 && (isCutShort || waitingGroups > 0)) atomicAdd(constants.counts.unfinished, 1);
 }
 
 void listBeamsOfTile(uvec2 tile, inout uint tested, inout uint met) {
@@ -321,6 +326,7 @@ void listBeamsOfTile(uvec2 tile, inout uint tested, inout uint met) {
     const Patch patchOfPixels = takePatch(corner, chosen, number == kMostPatches, float(id), waiting);
     listBeamsOf(patchOfPixels, corner, id, tested, met);
   }
+  if (subgroupBallot(waiting != 0) != uvec4(0) && thread() == 0) atomicAdd(constants.counts.unfinished, 1);
 }
 
 void main() {

@@ -8,10 +8,11 @@
 
 #ifndef __cplusplus
 layout(buffer_reference, scalar) buffer LightVolumeCounts {
-  uint tested;  // bounds
-  uint culled;  // of these, with all that is in them
-  uint drawn;   // beams on patches
-  uint wanted;  // the most draws that any list had or would have had room for
+  uint tested;      // bounds
+  uint culled;      // of these, with all that is in them
+  uint drawn;       // beams on patches
+  uint wanted;      // the most draws that any list had or would have had room for
+  uint unfinished;  // tiles that a device gave up
 };
 #endif
 

@@ -13,7 +13,7 @@ constexpr double kDepthTail = 0.001;        // part of the flux left before the 
 constexpr double kInnerWindowTail = 0.015;  // part of the flux left on each side of the inner window
 constexpr float kWindowMargin = 0.02f;      // of a window's side
 constexpr double kMostAside = 0.001;        // part of the flux that planes may miss
-constexpr float kRoomAside = 0.1f;          // of a cosine, as the mean of a portion is not its own middle
+constexpr float kRoomAside = 0.1f;          // of a cosine: rays of a beam differ
 constexpr float kFlatFraction = 1e-4f;      // of a box's longest side: one this thin is a surface
 
 struct Line {
@@ -149,30 +149,35 @@ bool goAlong(vec3 axis, std::span<const Line> lines) {
   return aside <= kMostAside * all;
 }
 
-// Two for each axis of the world, one for either way along it.
-std::size_t nearestAxis(vec3 direction) {
-  const vec3 size = abs(direction);
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  return std::size_t(2 * axis + (direction[axis] < 0 ? 1 : 0));
+// No receiver that lies along two axes of the world is seen edge-on from the middle of an octant, and no
+// direction in it is far from there.
+std::size_t octantOf(vec3 direction) {
+  return std::size_t((direction.x < 0 ? 1 : 0) + (direction.y < 0 ? 2 : 0) + (direction.z < 0 ? 4 : 0));
+}
+
+vec3 middleOfOctant(std::size_t octant) {
+  return normalize(vec3(octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1));
 }
 
 }  // namespace
 
-std::vector<std::vector<Beam>> portionsByAxis(std::vector<Beam> beams, std::span<const ReceiverBox> boxes) {
-  std::vector<std::vector<Beam>> portions(1);
+std::vector<LightPortion> portionsByAxis(std::vector<Beam> beams, std::span<const ReceiverBox> boxes) {
   const std::vector<Line> lines = arriving(beams, boxes);
-  if (goAlong(meanDirection(beams), lines)) {
-    portions[0] = std::move(beams);
+  const vec3 mean = meanDirection(beams);
+  std::vector<LightPortion> portions;
+  if (goAlong(mean, lines)) {
+    portions.push_back({mean, std::move(beams)});
     return portions;
   }
   vec3 sum(0);
   for (const Line& line : lines) sum += line.flux * line.direction;
-  const vec3 axis = sum == vec3(0) ? sum : normalize(sum);
-  portions.resize(7);
+  portions.resize(9);
+  portions[0].axis = sum == vec3(0) ? sum : normalize(sum);
+  for (std::size_t octant = 0; octant < 8; ++octant) portions[1 + octant].axis = middleOfOctant(octant);
   for (const Beam& beam : beams) {
     const vec3 direction = middleOf(beam).direction;
-    const bool isAlong = dot(direction, axis) >= kLeastApproach + kRoomAside;
-    portions[isAlong ? 0 : 1 + nearestAxis(direction)].push_back(beam);
+    const bool isAlong = dot(direction, portions[0].axis) >= kLeastApproach + kRoomAside;
+    portions[isAlong ? 0 : 1 + octantOf(direction)].beams.push_back(beam);
   }
   return portions;
 }
@@ -235,9 +240,9 @@ PlaneSet planPlanes(const PlaneOrder& order, std::span<const Beam> beams, std::s
   return set;
 }
 
-PlaneSet planAlongLight(std::span<const Beam> beams, std::span<const ReceiverBox> boxes, uint32_t planes,
+PlaneSet planAlongLight(const LightPortion& portion, std::span<const ReceiverBox> boxes, uint32_t planes,
                         uint32_t textureSize) {
-  const vec3 axis = meanDirection(beams);
+  const auto& [axis, beams] = portion;
   if (axis == vec3(0)) return {};
   float nearest = std::numeric_limits<float>::infinity();
   for (const Beam& beam : beams)

@@ -32,9 +32,14 @@ struct Arrival {
 std::vector<Arrival> findArrivals(std::span<const Beam> beams, std::span<const ReceiverBox> boxes,
                                   vec3 axis = vec3(0), float leastApproach = 0);
 
-// Portions of light that planes across an axis each can hold: all of it; or, where too much arrives aside of
-// its mean direction, what goes the way that most of it arrives, and the rest by axes of the world.
-std::vector<std::vector<Beam>> portionsByAxis(std::vector<Beam> beams, std::span<const ReceiverBox> boxes);
+struct LightPortion {
+  vec3 axis{0};  // unit, that planes may stand across; zero where light goes all ways alike
+  std::vector<Beam> beams;
+};
+
+// Portions of light that planes across an axis each can hold: all of it, across its mean; or, where too much
+// arrives aside of that, what goes the way that most of it arrives, and the rest by octants of the world.
+std::vector<LightPortion> portionsByAxis(std::vector<Beam> beams, std::span<const ReceiverBox> boxes);
 
 // How planes stand, and how far along their axis the virtual camera begins to see.
 struct PlaneOrder {
@@ -48,8 +53,8 @@ struct PlaneOrder {
 // depth; of no planes without arrivals.
 PlaneSet planPlanes(const PlaneOrder& order, std::span<const Beam> beams, std::span<const Arrival> arrivals);
 
-// Planes across the mean direction of the light (Iwasaki 2005b, 4.2).
-PlaneSet planAlongLight(std::span<const Beam> beams, std::span<const ReceiverBox> boxes, uint32_t planes,
+// Planes across the portion's axis (Iwasaki 2005b, 4.2: the mean direction of the light).
+PlaneSet planAlongLight(const LightPortion& portion, std::span<const ReceiverBox> boxes, uint32_t planes,
                         uint32_t textureSize);
 
 }  // namespace nephroid

@@ -72,13 +72,13 @@ TechniqueSettings settingsFor(const Scene& scene, TechniqueSettings settings) {
 
 // For each portion of the light, texels along the sides of its textures: so that their sum stays bounded
 // however many ways light goes by reflection, those that carry less get fewer.
-std::vector<uint32_t> textureSizes(std::span<const std::vector<Beam>> portions, uint32_t full) {
+std::vector<uint32_t> textureSizes(std::span<const LightPortion> portions, uint32_t full) {
   constexpr std::size_t kAtFullSize = 8;  // the next 4 times, 16 times ... as many at a half, a quarter ...
   constexpr uint32_t kFewestTexels = 32;
   std::vector<double> fluxes;
-  for (const std::vector<Beam>& beams : portions) {
+  for (const LightPortion& portion : portions) {
     double sum = 0;
-    for (const Beam& beam : beams) sum += double(beam.flux.x + beam.flux.y + beam.flux.z);
+    for (const Beam& beam : portion.beams) sum += double(beam.flux.x + beam.flux.y + beam.flux.z);
     fluxes.push_back(sum);
   }
   std::vector<std::size_t> byFlux(portions.size());
@@ -116,13 +116,13 @@ PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechn
                     shadeProgram(device, "caustics in color", 3, settings)},
       texelSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {}
 
-std::vector<std::vector<Beam>> PlaneTechnique::portionsOfLight(std::span<const ReceiverBox> boxes) const {
+std::vector<LightPortion> PlaneTechnique::portionsOfLight(std::span<const ReceiverBox> boxes) const {
   const Scene& scene = transport.scene();
-  std::vector<std::vector<Beam>> portions;
+  std::vector<LightPortion> portions;
   for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths, casters)) {
     std::vector<Beam> all = refinedBeams(scene, source, queries, boxes, settings);
     if (!traits.goesAlongAxis)
-      portions.push_back(std::move(all));
+      portions.push_back({vec3(0), std::move(all)});
     else
       std::ranges::move(portionsByAxis(std::move(all), boxes), std::back_inserter(portions));
   }
@@ -131,20 +131,20 @@ std::vector<std::vector<Beam>> PlaneTechnique::portionsOfLight(std::span<const R
 
 void PlaneTechnique::update(GpuScene&) {
   const std::vector<ReceiverBox> boxes = receiverBoxes(transport.scene());
-  std::vector<std::vector<Beam>> portions = portionsOfLight(boxes);
+  std::vector<LightPortion> portions = portionsOfLight(boxes);
   const std::vector<uint32_t> sizes = textureSizes(portions, settings.textureSize);
   lit.clear();
   for (std::size_t i = 0; i < portions.size(); ++i) {
     LitPlanes own{std::move(portions[i]), {}, sizes[i], 3};
     TechniqueSettings ofPortion = settings;
     ofPortion.textureSize = own.textureSize;
-    own.planes = traits.plan(transport.scene(), own.beams, boxes, ofPortion);
+    own.planes = traits.plan(transport.scene(), own.light, boxes, ofPortion);
     if (own.planes.planes == 0) continue;
-    own.channels = areOfOneColor(own.beams) ? 1 : 3;
+    own.channels = areOfOneColor(own.light.beams) ? 1 : 3;
     lit.push_back(std::move(own));
   }
   std::size_t beamCount = 0;
-  for (const LitPlanes& own : lit) beamCount += own.beams.size();
+  for (const LitPlanes& own : lit) beamCount += own.light.beams.size();
   setCount(stats, "beams", beamCount);
   setCount(stats, "plane_sets", lit.size());
   upload();
@@ -152,13 +152,13 @@ void PlaneTechnique::update(GpuScene&) {
 
 void PlaneTechnique::upload() {
   beamBytes = 0;
-  for (const LitPlanes& own : lit) beamBytes += own.beams.size() * sizeof(Beam);
+  for (const LitPlanes& own : lit) beamBytes += own.light.beams.size() * sizeof(Beam);
   gpu::ensureBuffer(device, beamUpload, "beams to upload", beamBytes, gpu::MemoryKind::upload);
   gpu::ensureBuffer(device, beams, "beams", beamBytes, gpu::MemoryKind::device);
   VkDeviceSize offset = 0;
   for (const LitPlanes& own : lit) {
-    beamUpload.write(own.beams, offset);
-    offset += own.beams.size() * sizeof(Beam);
+    beamUpload.write(own.light.beams, offset);
+    offset += own.light.beams.size() * sizeof(Beam);
   }
   if (images.size() < lit.size()) images.resize(lit.size());
   for (std::size_t set = 0; set < lit.size(); ++set) ensureImages(set);
@@ -227,7 +227,7 @@ void PlaneTechnique::drawReceivers(gpu::CommandList& commands, const GpuScene& g
 
 void PlaneTechnique::deposit(gpu::CommandList& commands, std::size_t set, VkDeviceAddress ofBeams) {
   const PlaneImages& own = images[set];
-  const std::size_t all = lit[set].beams.size();
+  const std::size_t all = lit[set].light.beams.size();
   for (std::size_t first = 0; first < all; first += kMostBeamsADispatch) {
     const auto count = uint32_t(std::min(all - first, kMostBeamsADispatch));
     commands.dispatch(
@@ -250,7 +250,7 @@ void PlaneTechnique::record(gpu::CommandList& commands, GpuScene& gpuScene) {
     VkDeviceAddress ofBeams = beams.address();
     for (std::size_t set = 0; set < lit.size(); ++set) {
       deposit(commands, set, ofBeams);
-      ofBeams += lit[set].beams.size() * sizeof(Beam);
+      ofBeams += lit[set].light.beams.size() * sizeof(Beam);
     }
   });
 }

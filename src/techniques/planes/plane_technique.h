@@ -16,7 +16,7 @@ namespace nephroid {
 
 struct PlaneTechniqueTraits {
   // Planes for one portion of the light (lightThroughCasters).
-  PlaneSet (*plan)(const Scene& scene, std::span<const Beam> beams, std::span<const ReceiverBox> boxes,
+  PlaneSet (*plan)(const Scene& scene, const LightPortion& portion, std::span<const ReceiverBox> boxes,
                    const TechniqueSettings& settings);
   // The light goes along the planes' axis, give or take, so that the virtual camera sees the receivers that
   // it meets; or else any way, and what it meets may be hidden.
@@ -41,7 +41,7 @@ class PlaneTechnique final : public Technique {
  private:
   // A portion of the light, and its planes.
   struct LitPlanes {
-    std::vector<Beam> beams;
+    LightPortion light;
     PlaneSet planes{};
     uint32_t textureSize = 0;
     uint32_t channels = 3;  // of the textures: one where all beams have the same colour
@@ -53,7 +53,7 @@ class PlaneTechnique final : public Technique {
     gpu::Image textures;  // units of flux, layers as textureIndex has them
   };
 
-  std::vector<std::vector<Beam>> portionsOfLight(std::span<const ReceiverBox> boxes) const;
+  std::vector<LightPortion> portionsOfLight(std::span<const ReceiverBox> boxes) const;
   void upload();
   void ensureImages(std::size_t set);
   void drawReceivers(gpu::CommandList& commands, const GpuScene& gpuScene, std::size_t set);

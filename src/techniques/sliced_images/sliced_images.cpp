@@ -33,8 +33,9 @@ uint32_t automaticSlices(const PlaneSet& pair) {
   return std::bit_ceil(uint32_t(std::clamp(slices, 1.0f, kMostAutomaticSlices)));
 }
 
-PlaneSet plan(const Scene& scene, std::span<const Beam> beams, std::span<const ReceiverBox> boxes,
+PlaneSet plan(const Scene& scene, const LightPortion& portion, std::span<const ReceiverBox> boxes,
               const TechniqueSettings& settings) {
+  const std::vector<Beam>& beams = portion.beams;
   const std::vector<Arrival> arrivals = findArrivals(beams, boxes);
   const vec3 axis = meanViewingDirection(scene.camera, arrivals);
   const float eye = dot(scene.camera.position, axis), receivers = nearestAlong(axis, boxes);

@@ -42,7 +42,7 @@ bool holdsAnother(const Scene& scene, const Object& object) {
 bool hasTable(const Scene& scene, const Object& object) {
   const Material& material = scene.materialOf(object);
   return material.type == MaterialType::dielectric && !material.thinWalled && !object.water &&
-         !isFaceted(scene.meshOf(object)) && !holdsAnother(scene, object);
+         facetedPart(scene.meshOf(object)) < kPartWithEdges && !holdsAnother(scene, object);
 }
 
 TableSource::TableSource(const Scene& sceneOfTables, std::vector<std::optional<TransportTable>> tableOfObject,
@@ -54,7 +54,7 @@ TableSource::TableSource(const Scene& sceneOfTables, std::vector<std::optional<T
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const Object& object = scene.objects[i];
     const bool isMirror = scene.materialOf(object).type == MaterialType::mirror;
-    isRefined.push_back(!tables[i] && (!isMirror || isFaceted(scene.meshOf(object))));
+    isRefined.push_back(!tables[i] && (!isMirror || facetedPart(scene.meshOf(object)) >= kPartWithEdges));
   }
 }
 
