@@ -3,6 +3,7 @@
 #include "gpu/command_list.h"
 #include "gpu/transfer.h"
 #include "gpu_fixture.h"
+#include "irradiance_volume/lookup.h"
 #include "scene/shapes.h"
 
 namespace nephroid {
@@ -78,17 +79,23 @@ std::vector<vec3> expectedLux(SceneVolumes& volumes, const Scene& scene, const T
                               const std::vector<vec4>& points, vec3 normal) {
   const Placement& placement = scene.objects[0].placement;
   IrradianceVolume& volume = *volumes.ofObject[0];
-  const vec3 toLamp = scene.lights[1].position - placement.point(volume.sphere().centre);
+  const vec3 centre = placement.point(volume.sphere().centre), toLamp = scene.lights[1].position - centre;
   std::vector<vec3> lux(points.size(), vec3(0));
-  const auto add = [&](vec3 direction, vec3 power) {
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (points[i].w != 0)
-        lux[i] += power * volume.illuminance(
-                              placement.inversePoint(vec3(points[i])), placement.inverseDirection(normal),
-                              placement.inverseDirection(direction), settings.lightInterpolation);
+  const auto add = [&](vec3 direction, vec3 power, vec3 nearness) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].w == 0) continue;
+      // What crosses a surface there crosses its image.
+      const vec3 x = vec3(points[i]) - centre;
+      const float scale = nearScale(x, nearness);
+      const vec3 image = scale * scale * scale * (normal - dot(normal, x) * nearness);
+      lux[i] += power * length(image) *
+                volume.illuminance(placement.inversePoint(centre + scale * x),
+                                   placement.inverseDirection(normalize(image)),
+                                   placement.inverseDirection(direction), settings.lightInterpolation);
+    }
   };
-  add(scene.lights[0].direction, scene.lights[0].illuminance);
-  add(-normalize(toLamp), scene.lights[1].intensity / dot(toLamp, toLamp));
+  add(scene.lights[0].direction, scene.lights[0].illuminance, vec3(0));
+  add(-normalize(toLamp), scene.lights[1].intensity / dot(toLamp, toLamp), toLamp / dot(toLamp, toLamp));
   return lux;
 }
 

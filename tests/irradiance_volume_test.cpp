@@ -9,6 +9,7 @@
 #include "closed_forms.h"
 #include "irradiance_volume/grid.h"
 #include "irradiance_volume/harmonics.h"
+#include "irradiance_volume/lookup.h"
 #include "irradiance_volumes.h"
 #include "scene/shapes.h"
 
@@ -247,6 +248,29 @@ TEST(IrradianceVolume, GoesOnBeyondItsRegion) {
 }
 
 // What a body of revolution sends on turns with the light.
+// Light that nothing bends, as it comes from afar, made that of a lamp: it comes from there, is as strong on
+// its axis as the square of the distance has it, and crosses a window as it crosses the window's image.
+TEST(NearLight, ComesFromItsLampWithAllItsFlux) {
+  const vec3 lamp(0.4f, 1.5f, -0.3f), nearness = lamp / dot(lamp, lamp), along = -normalize(lamp);
+  const auto light = [&](vec3 x) { return nearVector(along, x, nearness); };
+  for (const vec3 x : {vec3(0.2f, -0.7f, 0.1f), vec3(-0.5f, 0.3f, 0.6f)})
+    EXPECT_NEAR(dot(normalize(light(x)), normalize(x - lamp)), 1, 1e-6f);
+  for (const float way : {-0.8f, 0.5f, 2.0f})
+    EXPECT_NEAR(length(light(way * along)), dot(lamp, lamp) / std::pow(length(lamp) + way, 2.0f), 1e-5f);
+  const vec3 corner(-0.4f, -1, 0.2f), u(0.9f, 0.2f, 0.1f), v(0.1f, -0.3f, 0.7f);
+  constexpr int kSteps = 200;
+  double flux = 0;
+  for (int i = 0; i < kSteps * kSteps; ++i) {
+    const vec2 at = (vec2(float(i % kSteps), float(i / kSteps)) + 0.5f) / float(kSteps);
+    flux += double(dot(light(corner + at.x * u + at.y * v), cross(u, v))) / (kSteps * kSteps);
+  }
+  const auto image = [&](vec3 x) { return nearScale(x, nearness) * x; };
+  const vec3 a = image(corner), b = image(corner + u), c = image(corner + u + v), d = image(corner + v);
+  EXPECT_NEAR(flux, double(dot(along, 0.5f * (cross(b - a, c - a) + cross(c - a, d - a)))), 1e-4);
+  EXPECT_EQ(nearScale(1.1f * lamp, nearness), 0);
+  EXPECT_EQ(nearVector(along, vec3(1, 2, 3), vec3(0)), along);
+}
+
 TEST(IrradianceVolume, TurnsWithTheLightAboutAnAxis) {
   const Mesh mesh = makeRing(0.5f, 0.3f, 0.05f, {.vertices = 4000});
   IrradianceVolume volume(mesh, silver(), someSettings(), {});

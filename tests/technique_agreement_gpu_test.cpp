@@ -57,6 +57,16 @@ TEST_F(TechniqueAgreement, OnACylinderWhateverTheSource) {
   expectAsReference(scene, sensor, "light-volumes", Source::table);
 }
 
+// A volume knows parallel light alone.
+TEST_F(TechniqueAgreement, OnABallNearItsLamp) {
+  Scene scene;
+  add(scene, makePlane({8, 8}), diffuse(0.6f));
+  add(scene, makeSphere(0.3f, {.segments = 64}), glass(), {0, 0.5f, 0});
+  scene.lights = {pointLight({0.3f, 1.6f, 0.1f})};
+  const Sensor sensor = floorSensor({-0.14f, 0, -0.05f}, 0.36f, kBlocks * kTexelsOfBlock);
+  expectAsReference(scene, sensor, "irradiance-volume", Source::table, 0.1);
+}
+
 TEST_F(TechniqueAgreement, OnAMirrorThatScattersLightAllAround) {
   Scene scene;
   add(scene, makePlane({8, 8}), diffuse(0.6f));

@@ -223,6 +223,24 @@ SHARED_FUNCTION vec3 spreadOn(vec3 vector, vec3 outward, vec3 away) {
   return (max(dot(vector, outward), 0.0f) / max(dot(away, outward), kLeastCosine)) * away;
 }
 
+// Light of a lamp that is near the caster, as light from afar. The collineation that takes x, a place from
+// the caster's centre, to nearScale(x, nearness) * x makes the rays of a lamp at nearness / dot(nearness,
+// nearness) parallel and leaves all other lines lines: a lens's image of the lamp comes to where its focus
+// is. The nearness of light from afar is zero. No scale where there is no such light: at the lamp and behind
+// it.
+SHARED_FUNCTION float nearScale(vec3 x, vec3 nearness) {
+  const float kLeast = 0.02f;
+  float part = 1.0f - dot(x, nearness);
+  return part > kLeast ? 1.0f / part : 0.0f;
+}
+
+// The vector at x of light that has `vector` where the collineation takes x: what crosses any surface is what
+// crosses its image (the Piola transform).
+SHARED_FUNCTION vec3 nearVector(vec3 vector, vec3 x, vec3 nearness) {
+  float scale = nearScale(x, nearness);
+  return scale * scale * scale * (vector - dot(nearness, vector) * x);
+}
+
 // Lux by channel on a surface of unit normal `normal`, on the side that it points to.
 SHARED_FUNCTION vec3 surfaceIlluminance(VolumeLight light, vec3 normal) {
   float sum = light.color.x + light.color.y + light.color.z;

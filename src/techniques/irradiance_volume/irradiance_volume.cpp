@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <deque>
 #include <map>
 #include <set>
@@ -68,13 +69,15 @@ class IrradianceVolumes final : public Technique {
     const HeldFlow* flow = nullptr;  // none where light stays
   };
 
-  // For light of `lux` on the caster, that travels along the unit vector `direction`.
-  void addShares(const Object& object, IrradianceVolume& volume, vec3 direction, vec3 lux);
+  void addShares(const Object& object, IrradianceVolume& volume, const Emitter& emitter,
+                 const ShapedLight& light);
   // The same for all points of one light at once.
   void addResolved(const Object& object, IrradianceVolume& volume, std::span<const Emitter> emitters,
                    const ShapedLight& light);
+  // For light of `lux` on the caster.
   void addShare(const Object& object, const IrradianceVolume& volume, const SampleLayout& layout,
-                const mat3& toFrame, vec3 lux, const HeldLight& held, const LightFlow& flow = {});
+                const mat3& toFrame, vec3 lux, vec3 nearness, const HeldLight& held,
+                const LightFlow& flow = {});
   const HeldLight& onDevice(IrradianceVolume& volume, uint32_t sample);
   void stage(HeldLight& held, const SampleLayout& layout, std::span<const uint32_t> words) const;
   const HeldFlow& staged(const LightFlow& flow);
@@ -149,8 +152,17 @@ const HeldFlow& IrradianceVolumes::staged(const LightFlow& flow) {
   return held;
 }
 
+// As nearScale has it, of lamps at these points taken together.
+vec3 nearnessOf(std::span<const Emitter> emitters, vec3 centre) {
+  if (emitters.empty() || emitters[0].type == kEmitterDirectional) return vec3(0);
+  vec3 sum(0);
+  for (const Emitter& emitter : emitters) sum += emitter.position - centre;
+  const vec3 lamp = sum / float(emitters.size());
+  return lamp / std::max(dot(lamp, lamp), 1e-20f);
+}
+
 void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& volume,
-                                 const SampleLayout& layout, const mat3& toFrame, vec3 lux,
+                                 const SampleLayout& layout, const mat3& toFrame, vec3 lux, vec3 nearness,
                                  const HeldLight& held, const LightFlow& flow) {
   if (layout.words == 0 || lux == vec3(0)) return;
   const Placement& placement = object.placement;
@@ -158,30 +170,34 @@ void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& v
   // From the world, metres, to the sample's frame, bounding radii; and on to places.
   const float placesPerMetre = layout.placesPerUnit / (placement.scale * volume.sphere().radius);
   const mat3 turn = toFrame * glm::transpose(glm::mat3_cast(placement.rotation));
-  const mat3 linear = placesPerMetre * turn;
-  const vec3 offset = -(linear * centre) - layout.placesPerUnit * layout.corner;
+  const bool isMirrored = glm::determinant(turn) < 0;
+  const quat rotation = std::sqrt(placesPerMetre) * glm::normalize(glm::quat_cast(isMirrored ? -turn : turn));
   Share& share = shares.emplace_back();
   VolumeConstants& constants = share.constants;
-  for (int row = 0; row < 3; ++row)
-    constants.toPlaces[row] = vec4(linear[0][row], linear[1][row], linear[2][row], offset[row]);
+  constants.turn = {rotation.x, rotation.y, rotation.z, rotation.w};
+  constants.origin = -(placesPerMetre * (turn * centre)) - layout.placesPerUnit * layout.corner;
   constants.centre = centre;
   constants.inverseRadius = 1 / (placement.scale * volume.regionRadius());
   constants.lux = lux;
   constants.sizeAcross = layout.size.x | layout.size.y << 16;
-  constants.sizeAndFlowSide = layout.size.z | flow.side << 16;
+  constants.sizeAndFlowSide = layout.size.z | flow.side << 16 | (isMirrored ? kIsMirrored : 0);
   constants.words = held.words ? held.words.address() : 0;
   constants.source = glm::transpose(turn) * layout.source;
   constants.flowOrigin = flow.origin;
   constants.flowScale = flow.scale;
+  constants.nearness = nearness;
   share.light = &held;
   if (flow.side > 0) share.flow = &staged(flow);
 }
 
-void IrradianceVolumes::addShares(const Object& object, IrradianceVolume& volume, vec3 direction, vec3 lux) {
-  const vec3 inOwnSpace = object.placement.inverseDirection(direction);
+void IrradianceVolumes::addShares(const Object& object, IrradianceVolume& volume, const Emitter& emitter,
+                                  const ShapedLight& light) {
+  const vec3 centre = object.placement.point(volume.sphere().centre);
+  const vec3 lux = illuminance(light, emitter, centre), nearness = nearnessOf({&emitter, 1}, centre);
+  const vec3 inOwnSpace = object.placement.inverseDirection(emitterDirection(emitter, centre));
   for (const SampleShare& share : volume.lightSamples().around(inOwnSpace, settings.lightInterpolation))
     addShare(object, volume, volume.sample(share.sample).layout, volume.toFrame(share), share.weight * lux,
-             onDevice(volume, share.sample), volume.flow(share));
+             nearness, onDevice(volume, share.sample), volume.flow(share));
 }
 
 void IrradianceVolumes::addResolved(const Object& object, IrradianceVolume& volume,
@@ -206,7 +222,7 @@ void IrradianceVolumes::addResolved(const Object& object, IrradianceVolume& volu
   HeldLight& held = resolved[usedResolved++];
   const SampleLayout& layout = volume.sample(0).layout;
   stage(held, layout, volume.resolve(coefficients));
-  addShare(object, volume, layout, mat3(1), lux, held);
+  addShare(object, volume, layout, mat3(1), lux, nearnessOf(emitters, centre), held);
 }
 
 void IrradianceVolumes::update(GpuScene&) {
@@ -223,10 +239,7 @@ void IrradianceVolumes::update(GpuScene&) {
         addResolved(now.objects[i], volume, emitters, lights[l]);
         continue;
       }
-      const vec3 centre = now.objects[i].placement.point(volume.sphere().centre);
-      for (const Emitter& emitter : emitters)
-        addShares(now.objects[i], volume, emitterDirection(emitter, centre),
-                  illuminance(lights[l], emitter, centre));
+      for (const Emitter& emitter : emitters) addShares(now.objects[i], volume, emitter, lights[l]);
     }
   }
   uint64_t bytes = 0;
@@ -250,12 +263,13 @@ std::vector<Lattice> IrradianceVolumes::lattices() const {
     Lattice lattice{LatticeKind::cells, share.centre - radius, {}, uvec3(1)};
     mat3 edges(2 * radius);
     if (settings.representation != Representation::shells) {
-      const mat3 linear = glm::transpose(mat3(share.toPlaces[0], share.toPlaces[1], share.toPlaces[2]));
-      const vec3 offset(share.toPlaces[0].w, share.toPlaces[1].w, share.toPlaces[2].w);
+      const float handedness = (share.sizeAndFlowSide & kIsMirrored) != 0 ? -1.0f : 1.0f;
+      mat3 linear;
+      for (int i = 0; i < 3; ++i) linear[i] = handedness * turned(mat3(1)[i], share.turn);
       const mat3 toWorld = glm::inverse(linear);
       const uvec3 size(share.sizeAcross & 0xffffu, share.sizeAcross >> 16u, share.sizeAndFlowSide & 0xffffu);
       const vec3 places = glm::max(vec3(size), vec3(2)) - 1.0f;
-      lattice.corner = toWorld * -offset;
+      lattice.corner = toWorld * -share.origin;
       edges = mat3(places.x * toWorld[0], places.y * toWorld[1], places.z * toWorld[2]);
       lattice.cells = uvec3(places);
     }

@@ -16,17 +16,28 @@ SHARED_BEGIN
 
 // One light sample's share in the light of one emitter through one caster.
 struct VolumeConstants {
-  vec4 toPlaces[3];      // rows of the affine map from the world to places of the volume; without shear
+  vec4 turn;             // quaternion, from the world to the volume; its squared length is places per metre
+  vec3 origin;           // of the world, in places
   vec3 centre;           // m, of the region
   float inverseRadius;   // 1/m, of the region
   vec3 lux;              // of the light that falls on the caster, times the share
   uint sizeAcross;       // of the volume: x in the lower 16 bits, y above
-  uint sizeAndFlowSide;  // z in the lower 16 bits, FlowView::side above
+  uint sizeAndFlowSide;  // z in the lower 16 bits, FlowView::side above; the highest bit: kIsMirrored
   vec3 source;           // as SampleLayout has it, turned to the world
   BUFFER_ADDRESS(VolumeWords) words;  // of bricks; of shells, what the cells come after
   vec3 flowOrigin;                    // FlowView::origin
   vec3 flowScale;
+  vec3 nearness;  // 1/m, of the lamp, as nearScale has it
 };
+
+// The volume is the image in its centre of what the quaternion turns to.
+SHARED_CONSTANT uint kIsMirrored = 0x80000000u;
+
+SHARED_FUNCTION vec3 turned(vec3 v, vec4 turn) {
+  vec3 axis = vec3(turn.x, turn.y, turn.z);
+  return (turn.w * turn.w - dot(axis, axis)) * v + 2.0f * dot(axis, v) * axis +
+         2.0f * turn.w * cross(axis, v);
+}
 
 SHARED_END
 

@@ -44,8 +44,18 @@ VolumeLight gridLight(VolumeView volume, uint first, vec3 place) {
   return light;
 }
 
-vec3 mapped(vec4 p) {
-  return vec3(dot(constants.toPlaces[0], p), dot(constants.toPlaces[1], p), dot(constants.toPlaces[2], p));
+float handedness() {
+  return (constants.sizeAndFlowSide & kIsMirrored) != 0 ? -1 : 1;
+}
+
+vec3 placeOf(vec3 point) {
+  return handedness() * turned(point, constants.turn) + constants.origin;
+}
+
+vec3 toWorld(vec3 vector) {
+  const vec4 turn = constants.turn;
+  const float placesPerMetre = dot(turn, turn);
+  return handedness() / placesPerMetre * turned(vector, vec4(-turn.xyz, turn.w));
 }
 
 void main() {
@@ -53,21 +63,24 @@ void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const vec4 point = imageLoad(receiverPosition, pixel);
   if (point.w == 0) return;
-  const vec3 there = (point.xyz - constants.centre) * constants.inverseRadius;
+  const vec3 offset = point.xyz - constants.centre;
+  const float scale = nearScale(offset, constants.nearness);
+  const vec3 there = scale * constants.inverseRadius * offset;
   const vec4 inRegion = placeInRegion(there, constants.source);
-  if (inRegion.w == 0) return;
-  const vec3 place = mapped(vec4(constants.centre + inRegion.xyz / constants.inverseRadius, 1));
+  if (scale == 0 || inRegion.w == 0) return;
+  const vec3 place = placeOf(constants.centre + inRegion.xyz / constants.inverseRadius);
   const FlowView flow =
-      FlowView(constants.flowOrigin, constants.flowScale, constants.sizeAndFlowSide >> 16u);
+      FlowView(constants.flowOrigin, constants.flowScale, (constants.sizeAndFlowSide & ~kIsMirrored) >> 16u);
   const uint lower = 0xffffu;
   const uvec3 size =
       uvec3(constants.sizeAcross & lower, constants.sizeAcross >> 16u, constants.sizeAndFlowSide & lower);
   VolumeView volume = VolumeView(size, constants.words);
   VolumeLight light = flowedLight(volume, kRepresentation, flow, place);
   if (light.vector == vec3(0)) return;
+  light.vector = toWorld(light.vector);
   if (inRegion.w < 1)
-    light.vector = spreadOn(light.vector, normalize(mapped(vec4(inRegion.xyz, 0))),
-                            normalize(mapped(vec4(there - constants.source, 0))));
-  const vec3 normal = normalize(mapped(vec4(imageLoad(receiverNormal, pixel).xyz, 0)));
+    light.vector = spreadOn(light.vector, normalize(inRegion.xyz), normalize(there - constants.source));
+  light.vector = nearVector(light.vector, offset, constants.nearness);
+  const vec3 normal = imageLoad(receiverNormal, pixel).xyz;
   causticsLux = vec4(inRegion.w * constants.lux * surfaceIlluminance(light, normal), 0);
 }
