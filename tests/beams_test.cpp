@@ -7,6 +7,7 @@
 
 #include "beams/build.h"
 #include "beams/deposit.h"
+#include "beams/incident_flux.h"
 #include "closed_forms.h"
 #include "optics/refraction.h"
 #include "render/measure.h"

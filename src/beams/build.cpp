@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "beams/incident_flux.h"
 #include "optics/curved_triangle.h"
 #include "scene/air.h"
 #include "scene/mesh_checks.h"
@@ -47,60 +48,6 @@ struct Surface {
     return point;
   }
 };
-
-// Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983), positive when it is seen
-// counter-clockwise.
-float solidAngle(vec3 a, vec3 b, vec3 c) {
-  const glm::dvec3 p(a), q(b), r(c);
-  const double la = glm::length(p), lb = glm::length(q), lc = glm::length(r);
-  const double denominator = la * lb * lc + glm::dot(p, q) * lc + glm::dot(p, r) * lb + glm::dot(q, r) * la;
-  return float(-2 * std::atan2(glm::dot(p, glm::cross(q, r)), denominator));
-}
-
-// Into how many parts a side of a triangle is cut so that no part spans more than a texel of a gobo or the
-// bend of a cone. Corners from the light.
-uint32_t partsOfSide(const ShapedLight& light, const Emitter& emitter, const std::array<vec3, 3>& corners) {
-  constexpr float kWidestPart = 0.05f;  // rad
-  constexpr uint32_t kPartsInFalloff = 4, kMostParts = 16;
-  float parts = 1, falloff[3];
-  vec2 texels[3];
-  for (int i = 0; i < 3; ++i) {
-    const vec3 direction = normalize(corners[i]);
-    falloff[i] = coneFalloff(dot(direction, emitter.direction), emitter.coneScale, emitter.coneOffset);
-    const vec3 local = alongFrame(light.frame, direction);
-    texels[i] = vec2(local) * (length(light.goboTurn) / std::max(local.z, 1e-3f));
-    parts = std::max(parts, length(direction - normalize(corners[(i + 1) % 3])) / kWidestPart);
-  }
-  for (int i = 0; i < 3; ++i) {
-    if (light.gobo) parts = std::max(parts, length(texels[i] - texels[(i + 1) % 3]));
-    if (falloff[i] != falloff[0]) parts = std::max(parts, float(kPartsInFalloff));
-  }
-  return std::min(uint32_t(std::ceil(std::min(parts, float(kMostParts)))), kMostParts);
-}
-
-// Over the solid angle of a triangle. Corners from the light.
-vec3 meanIntensity(const ShapedLight& light, const Emitter& emitter, const std::array<vec3, 3>& corners) {
-  const uint32_t parts = partsOfSide(light, emitter, corners);
-  const vec3 across = (corners[1] - corners[0]) / float(parts),
-             along = (corners[2] - corners[0]) / float(parts);
-  vec3 sum(0);
-  float weights = 0;
-  const auto add = [&](float x, float y) {
-    const vec3 middle = corners[0] + x * across + y * along;
-    const vec3 direction = normalize(middle);
-    // All parts have one area and lie in one plane.
-    const float weight = 1 / std::pow(dot(middle, middle), 1.5f);
-    sum += weight * (light.isShaped() ? lightIntensity(light, direction) : emitterPower(emitter, direction));
-    weights += weight;
-  };
-  constexpr float kThird = 1.0f / 3;
-  for (uint32_t y = 0; y < parts; ++y)
-    for (uint32_t x = 0; x + y < parts; ++x) {
-      add(float(x) + kThird, float(y) + kThird);
-      if (x + y + 1 < parts) add(float(x) + 2 * kThird, float(y) + 2 * kThird);
-    }
-  return sum / weights;
-}
 
 // The rays at the mesh's vertices.
 struct VertexRays {
@@ -215,6 +162,7 @@ class Builder {
 
   void refine(const Triangle& t, uint32_t depth, BeamSet& set) const {
     if (!source.refines(query) || depth == 0) return emit(t, set);
+    if (isShadowEdge(t)) return clip(t, depth - 1, set);
     if (!sameWay(t)) return cut(t, depth - 1, 0, set);
     if (!arrives(t[0].ray)) return;
     if (settings.targets.empty() || (settings.isEvenAtSurface && leavesWhereItMeets(t))) return emit(t, set);
@@ -225,6 +173,46 @@ class Builder {
              !bends(t[i], t[(i + 1) % 3], middles[i]);
     if (keep) return emit(t, set);
     cutAt(t, middles, depth - 1, 0, set);
+  }
+
+  static bool isDark(const Corner& corner) { return corner.ray.flags == kRayOccluded; }
+
+  // Whether some corners are in shadow and the others go one way.
+  bool isShadowEdge(const Triangle& t) const {
+    const auto lit = std::ranges::find_if_not(t, isDark);
+    if (lit == t.end() || std::ranges::none_of(t, isDark)) return false;
+    return std::ranges::all_of(t, [&](const Corner& corner) {
+      return isDark(corner) || (arrives(corner.ray) && corner.ray.signature == lit->ray.signature);
+    });
+  }
+
+  // Goes on with the lit part of a triangle, which a straight line parts from the dark one.
+  void clip(const Triangle& t, uint32_t depth, BeamSet& set) const {
+    ++set.refined;
+    std::size_t first = 0;  // the corner that is alone, in the light or in the dark
+    while (isDark(t[first]) == isDark(t[(first + 1) % 3]) || isDark(t[first]) == isDark(t[(first + 2) % 3]))
+      ++first;
+    const Corner &alone = t[first], &next = t[(first + 1) % 3], &last = t[(first + 2) % 3];
+    if (isDark(alone)) {
+      const Corner towardNext = edgeOfShadow(t, next, alone), towardLast = edgeOfShadow(t, last, alone);
+      refine({towardNext, next, last}, depth, set);
+      refine({towardNext, last, towardLast}, depth, set);
+    } else {
+      refine({alone, edgeOfShadow(t, alone, next), edgeOfShadow(t, alone, last)}, depth, set);
+    }
+  }
+
+  Corner edgeOfShadow(const Triangle& t, Corner lit, Corner dark) const {
+    constexpr int kHalvings = 5;
+    const uint32_t signature = lit.ray.signature;
+    for (int i = 0; i < kHalvings; ++i) {
+      const Corner middle = between(t, lit, dark);
+      (arrives(middle.ray) && middle.ray.signature == signature ? lit : dark) = middle;
+    }
+    // Somewhere between the two: parallel to the last ray that was lit.
+    Corner edge{0.5f * (lit.weights + dark.weights), 0.5f * (lit.position + dark.position), kNone, lit.ray};
+    edge.ray.position += edge.position - lit.position;
+    return edge;
   }
 
   std::array<Corner, 3> middlesOf(const Triangle& t) const {
@@ -363,14 +351,6 @@ bool isLostToShadow(const Water& water, const VertexRays& vertices, std::size_t 
 }
 
 }  // namespace
-
-vec3 fluxOnto(const ShapedLight& light, const Emitter& emitter, vec3 a, vec3 b, vec3 c) {
-  if (emitter.type == kEmitterDirectional)
-    return emitter.power * (-0.5f * dot(emitter.direction, cross(b - a, c - a)));
-  const std::array<vec3, 3> corners{a - emitter.position, b - emitter.position, c - emitter.position};
-  const vec3 power = emitter.type == kEmitterPoint ? emitter.power : meanIntensity(light, emitter, corners);
-  return power * solidAngle(corners[0], corners[1], corners[2]);
-}
 
 BeamSet buildBeams(const Scene& scene, const TransportSource& source, const TransportQuery& query,
                    vec3 bandColor, const BeamSettings& settings) {
