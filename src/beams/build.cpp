@@ -114,7 +114,7 @@ class Builder {
     if (!settings.stopAtSurfaces) return true;
     vec2 texel;
     float distance;
-    return meetPlane(ray.position, ray.direction, settings.targets[0], texel, distance) &&
+    return meetPlane(ray.position, ray.direction, settings.targets[0].plane, texel, distance) &&
            ray.reach >= distance * (1 - 1e-3f) - 1e-4f;
   }
 
@@ -148,7 +148,8 @@ class Builder {
   // Whether the ray at a side's middle lies off the middle of the rays at its ends by more than the
   // tolerance.
   bool bends(const Corner& a, const Corner& b, const Corner& middle) const {
-    for (const PlaneGrid& target : settings.targets) {
+    for (const auto& [target, leastApproach] : settings.targets) {
+      if (dot(middle.ray.direction, target.normal) < leastApproach) continue;
       vec2 atA, atB, atMiddle;
       float distance;
       const bool meets = meetPlane(a.ray.position, a.ray.direction, target, atA, distance);

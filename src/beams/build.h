@@ -11,6 +11,12 @@
 
 namespace nephroid {
 
+// A plane on which bending is judged, of rays that go through it at no less than a cosine.
+struct BeamTarget {
+  PlaneGrid plane;
+  float leastApproach = 0;
+};
+
 struct BeamSettings {
   // Times a triangle may be cut in four where its rays take different ways or bend (sources that can trace
   // anywhere).
@@ -18,8 +24,8 @@ struct BeamSettings {
   // Texels of `targets` that the ray of a side's midpoint may lie off the middle of its ends' before the
   // triangle is cut.
   float refineTolerance = 0.1f;
-  // Planes on which bending is judged. Without any, triangles are cut where their corners' rays part, alone.
-  std::vector<PlaneGrid> targets;
+  // Without any, triangles are cut where their corners' rays part, alone.
+  std::vector<BeamTarget> targets;
   // Only rays that go on through other casters are taken to bend.
   bool isEvenAtSurface = false;
   // Light is wanted on the first target itself, so rays that meet an opaque surface before it carry none.

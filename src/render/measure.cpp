@@ -73,7 +73,7 @@ SensorLayer measureBeams(const Scene& scene, const RayScene& rays, const Transpo
   const PlaneGrid grid = gridOf(sensor);
   BeamSettings settings;
   settings.refineDepth = refineDepth;
-  settings.targets = {grid};
+  settings.targets = {{grid}};
   settings.stopAtSurfaces = true;
 
   std::vector<BandQuery> queries;

@@ -115,12 +115,12 @@ std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source
   for (const LightPortion& portion : portions) {
     const PlaneSet along = planAlongLight(portion, boxes, 2, settings.textureSize);
     if (along.planes == 0) continue;
-    refined.targets.push_back(planeGrid(along, 0, 0));
-    refined.targets.push_back(planeGrid(along, along.planes - 1, 0));
+    refined.targets.push_back({planeGrid(along, 0, 0), portion.leastApproach});
+    refined.targets.push_back({planeGrid(along, along.planes - 1, 0), portion.leastApproach});
   }
   if (refined.targets.empty()) return joined(portions);
   refined.refineDepth = settings.refineDepth + (isWater ? kCutsBeyondWaves : 0);
-  refined.refineTolerance = 0.5f;
+  refined.refineTolerance = 0.25f;
   refined.isEvenAtSurface = isWater;
   return beamsOf(scene, source, queries, refined);
 }

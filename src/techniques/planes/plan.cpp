@@ -16,6 +16,8 @@ constexpr double kMostAside = 0.001;        // part of the flux that planes may 
 constexpr float kRoomAside = 0.1f;          // of a cosine: rays of a beam differ
 constexpr float kFlatFraction = 1e-4f;      // of a box's longest side: one this thin is a surface
 
+constexpr float kOctantApproach = 0.58f;  // a little more than of rays along an axis of the world
+
 struct Line {
   vec3 origin, direction;
   float flux;
@@ -166,14 +168,15 @@ std::vector<LightPortion> portionsByAxis(std::vector<Beam> beams, std::span<cons
   const vec3 mean = meanDirection(beams);
   std::vector<LightPortion> portions;
   if (goAlong(mean, lines)) {
-    portions.push_back({mean, std::move(beams)});
+    portions.push_back({mean, std::move(beams), 0});
     return portions;
   }
   vec3 sum(0);
   for (const Line& line : lines) sum += line.flux * line.direction;
   portions.resize(9);
   portions[0].axis = sum == vec3(0) ? sum : normalize(sum);
-  for (std::size_t octant = 0; octant < 8; ++octant) portions[1 + octant].axis = middleOfOctant(octant);
+  for (std::size_t octant = 0; octant < 8; ++octant)
+    portions[1 + octant] = {middleOfOctant(octant), {}, kOctantApproach};
   for (const Beam& beam : beams) {
     const vec3 direction = middleOf(beam).direction;
     const bool isAlong = dot(direction, portions[0].axis) >= kLeastApproach + kRoomAside;
@@ -242,7 +245,8 @@ PlaneSet planPlanes(const PlaneOrder& order, std::span<const Beam> beams, std::s
 
 PlaneSet planAlongLight(const LightPortion& portion, std::span<const ReceiverBox> boxes, uint32_t planes,
                         uint32_t textureSize) {
-  const auto& [axis, beams] = portion;
+  const vec3 axis = portion.axis;
+  const std::vector<Beam>& beams = portion.beams;
   if (axis == vec3(0)) return {};
   float nearest = std::numeric_limits<float>::infinity();
   for (const Beam& beam : beams)

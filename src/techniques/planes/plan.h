@@ -35,6 +35,7 @@ std::vector<Arrival> findArrivals(std::span<const Beam> beams, std::span<const R
 struct LightPortion {
   vec3 axis{0};  // unit, that planes may stand across; zero where light goes all ways alike
   std::vector<Beam> beams;
+  float leastApproach = 0;  // cosine with the axis of nearly all rays in it
 };
 
 // Portions of light that planes across an axis each can hold: all of it, across its mean; or, where too much

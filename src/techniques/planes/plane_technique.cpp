@@ -122,7 +122,7 @@ std::vector<LightPortion> PlaneTechnique::portionsOfLight(std::span<const Receiv
   for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths, casters)) {
     std::vector<Beam> all = refinedBeams(scene, source, queries, boxes, settings);
     if (!traits.goesAlongAxis)
-      portions.push_back({vec3(0), std::move(all)});
+      portions.push_back({vec3(0), std::move(all), 0});
     else
       std::ranges::move(portionsByAxis(std::move(all), boxes), std::back_inserter(portions));
   }
