@@ -1,3 +1,12 @@
+# A linker that is several times as fast, where there is one: every test program links the whole library.
+if(NEPHROID_TESTS)
+  find_program(NEPHROID_LLD NAMES ld.lld)
+  mark_as_advanced(NEPHROID_LLD)
+  if(NEPHROID_LLD)
+    add_link_options(-fuse-ld=lld)
+  endif()
+endif()
+
 # One place for how every target of ours is compiled.
 function(nephroid_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic

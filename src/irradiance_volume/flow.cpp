@@ -26,7 +26,7 @@ constexpr std::size_t kCellsJudged = 20 * 20 * 20;
 
 using Moves = std::array<std::vector<vec3>, 2>;  // of all nodes, for both ways of the light
 
-struct Lattice {
+struct FlowLattice {
   vec3 corner;
   vec3 spacing;
   uint32_t side;
@@ -50,10 +50,6 @@ struct Lattice {
   }
 };
 
-float brightness(const PhotonPath& path) {
-  return (path.flux.x + path.flux.y + path.flux.z) / 3;
-}
-
 // Turned from the sample's direction by `aside`; the frame turns with it.
 mat3 turnedFrame(const mat3& frame, vec2 aside) {
   const vec3 direction = normalize(frame * vec3(aside, std::sqrt(std::max(0.0f, 1 - dot(aside, aside)))));
@@ -69,7 +65,7 @@ struct Sums {
   std::array<std::vector<vec3>, 2> displacement;
 };
 
-void addPair(const PhotonPath& from, const PhotonPath& to, int way, float step, const Lattice& lattice,
+void addPair(const PhotonPath& from, const PhotonPath& to, int way, float step, const FlowLattice& lattice,
              Sums& sums) {
   const float length = std::min(from.length, to.length);
   const mat3 across = mat3(1) - glm::outerProduct(from.direction, from.direction);
@@ -86,7 +82,7 @@ void addPair(const PhotonPath& from, const PhotonPath& to, int way, float step, 
 }
 
 // Displacements that fit those of the paths, and where there are few those of the nodes around.
-Moves solve(const Lattice& lattice, const Sums& sums) {
+Moves solve(const FlowLattice& lattice, const Sums& sums) {
   Moves moves;
   float trace = 0;
   for (const mat3& m : sums.across) trace += (m[0][0] + m[1][1] + m[2][2]) / 3;
@@ -119,7 +115,7 @@ Moves solve(const Lattice& lattice, const Sums& sums) {
 }
 
 // What the light's own movement would be if it stayed where it is while the frame turns.
-Moves standing(const Lattice& lattice) {
+Moves standing(const FlowLattice& lattice) {
   Moves moves;
   for (std::size_t i = 0; i < lattice.count(); ++i) {
     moves[0].push_back(cross(vec3(0, 1, 0), lattice.place(i)));
@@ -128,7 +124,7 @@ Moves standing(const Lattice& lattice) {
   return moves;
 }
 
-LightFlow turnedBy(const Lattice& lattice, const Moves& moves, vec2 aside) {
+LightFlow turnedBy(const FlowLattice& lattice, const Moves& moves, vec2 aside) {
   LightFlow flow{lattice.corner, 1.0f / lattice.spacing, lattice.side, {}};
   for (std::size_t i = 0; i < lattice.count(); ++i)
     flow.moves.push_back(aside.x * moves[0][i] + aside.y * moves[1][i]);
@@ -179,7 +175,7 @@ struct Trial {
 };
 
 // By node, the squared difference of the sample so moved to what was traced.
-std::vector<double> misfit(const Lattice& lattice, const Moves& moves, const Cells& sample,
+std::vector<double> misfit(const FlowLattice& lattice, const Moves& moves, const Cells& sample,
                            std::span<const Trial> trials) {
   std::vector<double> sums(lattice.count(), 0);
   for (const Trial& trial : trials) {
@@ -203,7 +199,7 @@ double sumOf(const std::vector<double>& values) {
 }
 
 // At every node the movement that fits best around it, unless a single one fits better altogether.
-Moves bestOf(const Lattice& lattice, const std::vector<Moves>& candidates, const Cells& sample,
+Moves bestOf(const FlowLattice& lattice, const std::vector<Moves>& candidates, const Cells& sample,
              std::span<const Trial> trials) {
   std::vector<std::vector<double>> around;
   double least = std::numeric_limits<double>::infinity();
@@ -226,7 +222,7 @@ Moves bestOf(const Lattice& lattice, const std::vector<Moves>& candidates, const
   return sumOf(misfit(lattice, mixed, sample, trials)) < least ? mixed : candidates[best];
 }
 
-Lattice latticeAround(std::span<const PhotonPath> paths, uint32_t side) {
+FlowLattice latticeAround(std::span<const PhotonPath> paths, uint32_t side) {
   const LitBox box = litBox(paths);
   return {box.low, max(box.high - box.low, vec3(1e-3f)) / float(side - 1), side};
 }
@@ -236,7 +232,7 @@ std::array<vec2, 4> asides(float angle) {
   return {vec2(a, 0), vec2(-a, 0), vec2(0, a), vec2(0, -a)};
 }
 
-std::vector<Moves> tracedMoves(const CasterTracer& tracer, const mat3& frame, const Lattice& lattice,
+std::vector<Moves> tracedMoves(const CasterTracer& tracer, const mat3& frame, const FlowLattice& lattice,
                                const FlowSettings& settings) {
   std::array<Sums, 3> sums;
   for (Sums& one : sums) {
@@ -282,7 +278,7 @@ std::size_t flowWordCount(uint32_t side) {
 std::vector<uint32_t> traceFlow(const CasterTracer& tracer, const mat3& frame,
                                 std::span<const PhotonPath> paths, const FlowSettings& settings) {
   if (paths.empty()) return {};
-  const Lattice lattice = latticeAround(paths, settings.side);
+  const FlowLattice lattice = latticeAround(paths, settings.side);
   std::vector<Moves> candidates = tracedMoves(tracer, frame, lattice, settings);
   candidates.push_back(standing(lattice));
   candidates.push_back(

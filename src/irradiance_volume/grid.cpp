@@ -13,10 +13,6 @@ constexpr uint32_t kBins = 512;
 constexpr double kTail = 0.001 / 6;  // of the light, beyond each side
 constexpr uint32_t kLayersPerTask = 4;
 
-float brightness(const PhotonPath& path) {
-  return (path.flux.x + path.flux.y + path.flux.z) / 3;
-}
-
 struct Span {
   float first = 0;
   float last = 0;

@@ -1,11 +1,11 @@
 #include "irradiance_volume/harmonics.h"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "core/index_range.h"
 #include "irradiance_volume/volume.h"
 
 namespace nephroid {
@@ -126,8 +126,7 @@ std::vector<uint32_t> resolveHarmonics(std::span<const std::span<const uint32_t>
                                        std::span<const float> light) {
   constexpr uint32_t kHalf = 0xffffu;
   std::vector<uint32_t> words(layers[0].size());
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
-  oneapi::tbb::parallel_for(Range(0, words.size() / kWordsOfCell, 256), [&](const Range& range) {
+  oneapi::tbb::parallel_for(IndexRange(0, words.size() / kWordsOfCell, 256), [&](const IndexRange& range) {
     for (std::size_t cell = range.begin(); cell < range.end(); ++cell) {
       const std::size_t word = cell * kWordsOfCell;
       vec3 sum(0);

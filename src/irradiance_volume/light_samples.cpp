@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "transport/table/directions.h"
 
 namespace nephroid {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 constexpr float kIcosahedronEdge = 1.1071487f;  // radians between neighbouring vertices
 
 // Mirrors to the positive side of every mirror plane.
@@ -34,7 +34,7 @@ vec3 onCircle(uint32_t axis, float angle) {
 }
 
 float circleLength(const Symmetry& symmetry) {
-  return symmetry.mirrors[symmetry.axis] ? 0.5f * kPi : kPi;
+  return symmetry.mirrors[symmetry.axis] ? 0.5f * std::numbers::pi_v<float> : std::numbers::pi_v<float>;
 }
 
 void keepNearest(std::vector<SampleShare>& shares) {
@@ -55,7 +55,7 @@ mat3 turnBetween(vec3 from, vec3 to) {
   const float cosine = dot(from, to);
   if (cosine < -0.99999f) {  // half a turn about any axis across
     const vec3 across = vertexFrame(from)[0];
-    return glm::mat3_cast(glm::angleAxis(kPi, across));
+    return glm::mat3_cast(glm::angleAxis(std::numbers::pi_v<float>, across));
   }
   const vec3 axis = cross(from, to);
   return glm::mat3_cast(glm::normalize(quat(1 + cosine, axis.x, axis.y, axis.z)));

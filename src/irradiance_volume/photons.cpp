@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "irradiance_volume/light_samples.h"
 #include "optics/refraction.h"
@@ -14,7 +15,6 @@ namespace nephroid {
 namespace {
 
 constexpr uint32_t kPhotonsPerBlock = 1024;
-constexpr float kPi = 3.14159265f;
 constexpr float kLeastShare = 1e-4f;  // of a photon's flux that is still worth a path
 
 // Evenly over the unit disc: the plastic number's sequence (Roberts 2018) on a square that is mapped to it
@@ -28,7 +28,7 @@ vec2 onDisc(uint32_t index) {
   const bool isWide = std::abs(square.x) > std::abs(square.y);
   const float radius = isWide ? square.x : square.y;
   const float angle =
-      isWide ? 0.25f * kPi * square.y / square.x : 0.5f * kPi - 0.25f * kPi * square.x / square.y;
+      0.25f * std::numbers::pi_v<float> * (isWide ? square.y / square.x : 2 - square.x / square.y);
   return radius * vec2(std::cos(angle), std::sin(angle));
 }
 
@@ -123,7 +123,7 @@ std::vector<PhotonPath> CasterTracer::trace(vec3 lightDirection, uint32_t photon
 }
 
 std::vector<PhotonPath> CasterTracer::trace(const mat3& frame, uint32_t photons, float reach) const {
-  const vec3 flux(kPi / float(photons));
+  const vec3 flux(std::numbers::pi_v<float> / float(photons));
   return inBlocks<PhotonPath>(photons, [&](uint32_t photon, std::vector<PhotonPath>& found) {
     Hit hit;
     const vec3 start = sphere_.centre + sphere_.radius * (frame * vec3(onDisc(photon), -2.0f));
@@ -135,7 +135,7 @@ std::vector<PhotonPath> CasterTracer::trace(const mat3& frame, uint32_t photons,
 std::vector<PhotonPair> CasterTracer::pairs(const mat3& frame, const mat3& other, PairedBy pairedBy,
                                             uint32_t photons, float reach) const {
   constexpr float kSamePlace = 1e-3f;  // bounding radii
-  const vec3 flux(kPi / float(photons));
+  const vec3 flux(std::numbers::pi_v<float> / float(photons));
   return inBlocks<PhotonPair>(photons, [&](uint32_t photon, std::vector<PhotonPair>& found) {
     const vec3 start(onDisc(photon), -2.0f);
     Hit hit, otherHit;

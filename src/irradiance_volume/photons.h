@@ -20,6 +20,11 @@ struct PhotonPath {
   float length = 0;   // bounding radii
 };
 
+// Its flux, the mean of the channels.
+inline float brightness(const PhotonPath& path) {
+  return (path.flux.x + path.flux.y + path.flux.z) / 3;
+}
+
 // What photons of two directions of the light have in common.
 enum class PairedBy { place, entry };  // on the disc of light; where they meet the caster
 

@@ -17,10 +17,6 @@ constexpr float kEvenShare = 0.25f;     // of the shells, that lie evenly whatev
 constexpr uint32_t kCellsAcrossPerShell = 3;
 constexpr uint32_t kPartsOfRegion = 16;  // filled in parallel
 
-float brightness(const PhotonPath& path) {
-  return (path.flux.x + path.flux.y + path.flux.z) / 3;
-}
-
 // Steradians per square of the octahedral map's unit square: of a plane at distance 1 / sqrt(3) of a cube's
 // diagonal, seen from its centre.
 float solidAnglePerSquare(vec2 square) {

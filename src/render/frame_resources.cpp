@@ -9,7 +9,7 @@
 namespace nephroid {
 namespace {
 
-constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kFrameFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kBytes = VK_FORMAT_R8G8B8A8_UNORM;
 
@@ -17,14 +17,14 @@ constexpr VkFormat kBytes = VK_FORMAT_R8G8B8A8_UNORM;
 
 SeenImages createSeenImages(gpu::Device& device, uint32_t width, uint32_t height) {
   const auto image = [&](const char* name) {
-    return gpu::createImage(device, name, {.format = kFloats, .width = width, .height = height});
+    return gpu::createImage(device, name, {.format = kFrameFormat, .width = width, .height = height});
   };
   return {image("receiver position"), image("receiver normal"), image("receiver albedo"),
           image("transmittance"),     image("direct lux"),      image("caustics lux")};
 }
 
 FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t height) {
-  const auto image = [&](const char* name, VkFormat format = kFloats) {
+  const auto image = [&](const char* name, VkFormat format = kFrameFormat) {
     return gpu::createImage(device, name, {.format = format, .width = width, .height = height});
   };
   FrameImages images;
@@ -40,7 +40,7 @@ FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t heig
 
 FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& luminance) {
   gpu::RasterState receiver;
-  receiver.colors = {{kFloats}, {kFloats}, {kFloats}};
+  receiver.colors = {{kFrameFormat}, {kFrameFormat}, {kFrameFormat}};
   receiver.depthFormat = kDepth;
   receiver.depthCompare = VK_COMPARE_OP_GREATER;
 
@@ -59,7 +59,7 @@ FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& lu
                                  {.colors = {{kBytes}}}, choices);
     programs.layers[traits] =
         gpu::createRasterProgram(device, "layers", shaders::whole_picture_vert, shaders::layers_frag,
-                                 {.colors = {{kFloats}, {kFloats}, {kFloats}}}, choices);
+                                 {.colors = {{kFrameFormat}, {kFrameFormat}, {kFrameFormat}}}, choices);
   }
   return programs;
 }

@@ -10,7 +10,6 @@
 #include "report/paper_3_errors.h"
 #include "report/paper_scenes.h"
 #include "report/volume_sensor.h"
-#include "scene/load.h"
 #include "scene/shapes.h"
 
 namespace nephroid {
@@ -32,10 +31,6 @@ constexpr std::array<Row, 6> kRows{{{"sphere", 15.2, 17.3, 15.0, 8.1, 26.9, 1.7}
                                     {"ring", 9.3, 9.5, 8.8, 5.2, 12.9, 1.3},
                                     {"room", 1.94, 2.01, 1.90, 1.48, 2.29, 4.5},
                                     {"bunny", 2.16, 2.30, 2.25, 1.80, 2.55, 25.0}}};
-
-Scene load(const std::filesystem::path& folder, const std::string& name) {
-  return loadScene(folder / ("paper3-" + name + ".toml"));
-}
 
 TechniqueSettings volumeSettings(Representation representation) {
   TechniqueSettings settings;
@@ -67,7 +62,7 @@ double secondsPerLightSample(const Scene& scene) {
 
 void addRates(PaperTable& table, const Row& row, const std::filesystem::path& folder, gpu::Device* device,
               Progress& progress) {
-  const Scene scene = load(folder, row.scene);
+  const Scene scene = loadPaper3(folder, row.scene);
   const auto add = [&](const char* kept, const TechniqueSettings& settings, double paper) {
     if (!device) return;
     FrameBench frames(*device, scene, settings, {.size = kPictureSize}, progress);
@@ -127,7 +122,7 @@ double lookUpMilliseconds(gpu::Device& device, const Scene& scene, Progress& pro
 // The sphere's look-up with few triangles and with many.
 void addTriangles(PaperTable& table, const std::filesystem::path& folder, gpu::Device& device,
                   Progress& progress) {
-  Scene scene = load(folder, "sphere");
+  Scene scene = loadPaper3(folder, "sphere");
   for (const uint32_t triangles : {1000u, 1000000u}) {
     scene.meshes[casterOf(scene).mesh] = makeSphere(0.5f, {.vertices = triangles / 2});
     table.figures.push_back({"sphere of " + std::to_string(triangles) + " triangles", "look-up", "ms",
@@ -148,7 +143,7 @@ PaperTable measurePaper3(const PaperBench& bench, Progress& progress) {
   for (const Row& row : kRows) addRates(table, row, folder, device.orNone(), progress);
   if (gpu::Device* on = device.orNone()) {
     TechniqueSettings order15 = harmonicSettings(15);
-    const Scene sphere = load(folder, "sphere");
+    const Scene sphere = loadPaper3(folder, "sphere");
     FrameBench frames(*on, sphere, order15, {.size = kPictureSize}, progress);
     table.figures.push_back({"sphere, harmonics of order 15", "frame rate", "1/s", kNoFigure,
                              1 / frames.seconds(kCounts, sphere)});

@@ -7,8 +7,8 @@
 #include "irradiance_volume/photons.h"
 #include "render/picture.h"
 #include "report/flip.h"
+#include "report/paper_scenes.h"
 #include "report/volume_sensor.h"
-#include "scene/load.h"
 #include "techniques/settings.h"
 
 namespace nephroid {
@@ -20,10 +20,6 @@ constexpr std::array<uint32_t, 3> kRepresentations{kRepresentationGrid, kReprese
 constexpr uint32_t kFinestTimes = 4;
 // A floor of reflectance 0.8, as the scenes are exposed.
 constexpr float kExposurePerLux = 0.7f * 0.8f / std::numbers::pi_v<float>;
-
-Scene load(const std::filesystem::path& folder, const std::string& name) {
-  return loadScene(folder / ("paper3-" + name + ".toml"));
-}
 
 VolumeSettings settingsFor(uint32_t representation, uint32_t kilobytes) {
   VolumeSettings settings;
@@ -119,7 +115,7 @@ double readThrough(IrradianceVolume& volume, vec3 light, const Square& square) {
 void addMemoryErrors(PaperTable& table, const std::filesystem::path& scenes, Progress& progress) {
   constexpr uint32_t kReferencePasses = 16;
   for (const std::string name : {"sphere", "ring"}) {
-    const Scene scene = load(scenes, name);
+    const Scene scene = loadPaper3(scenes, name);
     progress.begin("reference of " + name, 1);
     const SensorLayer truth = readReference(scene, kReferencePasses);
     progress.finish();
@@ -144,7 +140,7 @@ void addFluxes(PaperTable& table, const std::filesystem::path& scenes) {
   constexpr float kReach = 20;  // bounding radii, beyond all planes
   constexpr uint32_t kPhotons = 400000;
   for (const std::string name : {"sphere", "ring", "prism"}) {
-    const Scene scene = load(scenes, name);
+    const Scene scene = loadPaper3(scenes, name);
     const Object& caster = casterOf(scene);
     const Material material = materialInOwnSpace(scene.materialOf(caster), caster.placement.scale);
     const CasterTracer tracer(scene.meshOf(caster), material, Paths::transmission);
@@ -171,7 +167,7 @@ void addMotionErrors(PaperTable& table, const std::filesystem::path& scenes, Pro
   constexpr int kFrames = 11;
   constexpr float kDegreesPerFrame = 1;
   for (const std::string name : {"sphere", "cube", "prism", "ring", "bunny"}) {
-    Scene scene = load(scenes, name);
+    Scene scene = loadPaper3(scenes, name);
     const quat turn = glm::angleAxis(glm::radians(kDegreesPerFrame), normalize(vec3(1, 0.5f, 3)));
     std::vector<Scene> frames;
     std::vector<SensorLayer> truth;

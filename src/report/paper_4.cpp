@@ -18,7 +18,7 @@
 namespace nephroid {
 namespace {
 
-constexpr uvec2 kSize(720, 480);                  // pixels
+constexpr uvec2 kSizeOfShafts(720, 480);          // pixels
 constexpr int kFrames = 5;                        // timed, after one that makes programs
 constexpr uint32_t kPlanes = 30, kSubplanes = 6;  // which paper 4 settles on
 constexpr std::array<uint32_t, 6> kPlaneCounts{10, 20, 30, 60, 100, 200};   // figure 4
@@ -53,7 +53,7 @@ class Bench {
   Drawn draw(const Scene& scene, const ShaftSettings& shafts, int frames = kFrames) const {
     TechniqueSettings settings;
     settings.technique = "none";
-    FrameBench bench(device, scene, settings, {.size = kSize, .shafts = shafts}, progress);
+    FrameBench bench(device, scene, settings, {.size = kSizeOfShafts, .shafts = shafts}, progress);
     const double seconds = bench.seconds({.warmUps = 1, .frames = frames}, scene);
     Drawn drawn{bench.renderer().layers(), {}, seconds, bench.renderer().shafts().planes()};
     drawn.levels = levelsOf(drawn.image, scene.camera.exposure);
@@ -83,12 +83,12 @@ Marched marchRays(const Scene& scene, const Image& surfaces) {
   const Stopwatch watch;
   const RayScene rays(scene);
   const Lights lights(scene, Aim::everywhere);
-  const Pinhole camera(scene.camera, kSize);
+  const Pinhole camera(scene.camera, kSizeOfShafts);
   const Medium& air = *scene.medium;
   Image image = surfaces;
-  oneapi::tbb::parallel_for(0u, kSize.y, [&](uint32_t row) {
-    for (uint32_t column = 0; column < kSize.x; ++column) {
-      const std::size_t pixel = std::size_t(row) * kSize.x + column;
+  oneapi::tbb::parallel_for(0u, kSizeOfShafts.y, [&](uint32_t row) {
+    for (uint32_t column = 0; column < kSizeOfShafts.x; ++column) {
+      const std::size_t pixel = std::size_t(row) * kSizeOfShafts.x + column;
       const Ray ray = camera.rayThrough(vec2(column, row) + 0.5f);
       Hit hit;
       const float length = rays.intersect(ray, hit) ? std::min(hit.distance, kFarthest) : kFarthest;

@@ -50,8 +50,8 @@ constexpr std::array<Pool, 4> kPools{{
 }};
 constexpr std::array<uint32_t, 3> kGrids{120, 160, 200};
 
-constexpr FrameBench::Counts kCounts{.warmUps = 1, .frames = 2};
-constexpr uvec2 kSize(1024, 768);
+constexpr FrameBench::Counts kCountsOfPools{.warmUps = 1, .frames = 2};
+constexpr uvec2 kPoolSize(1024, 768);
 // Every beam asked for every block of pixels is too slow for whole pictures, and for many of them.
 constexpr uvec2 kSizeOfGain(128, 96);
 constexpr FrameBench::Counts kCountsOfFlat{.warmUps = 1, .frames = 1};
@@ -113,16 +113,16 @@ void addRow(PaperTable& table, const Pool& view, std::size_t grid, const Scene& 
   const auto add = [&](const char* quantity, const char* unit, double paper, double ours, double asked) {
     table.figures.push_back({name, quantity, unit, paper, ours, asked});
   };
-  FrameBench frames(device, scene, still, {.size = kSize}, progress);
-  const Timed ofShaded = timeFrames(frames, scene, kCounts);
-  const Timed ofAll = timeFrames(frames, withoutOccluders(scene), kCounts);
-  const Timed ofExact = timeFrames(device, scene, exact, kSize, kCounts, progress);
+  FrameBench frames(device, scene, still, {.size = kPoolSize}, progress);
+  const Timed ofShaded = timeFrames(frames, scene, kCountsOfPools);
+  const Timed ofAll = timeFrames(frames, withoutOccluders(scene), kCountsOfPools);
+  const Timed ofExact = timeFrames(device, scene, exact, kPoolSize, kCountsOfPools, progress);
   add("all of the water lit", "1/s", view.hierarchical[grid], 1 / ofAll.seconds, view.hierarchical[grid]);
   add("shadow culling", "1/s", view.shadowCulling[grid], 1 / ofShaded.seconds, view.shadowCulling[grid]);
   add("shadow culling's gain", "%", 100 * (view.shadowCulling[grid] / view.hierarchical[grid] - 1),
       100 * (ofAll.seconds / ofShaded.seconds - 1), kNoFigure);
   add("exact cosine", "1/s", view.vectors[grid], 1 / ofExact.seconds, view.vectors[grid]);
-  const double few = timeFrames(device, scene, exact, kSizeOfGain, kCounts, progress).seconds;
+  const double few = timeFrames(device, scene, exact, kSizeOfGain, kCountsOfPools, progress).seconds;
   const double all = timeFrames(device, scene, flat, kSizeOfGain, kCountsOfFlat, progress).seconds;
   add("hierarchy's gain", "%", view.gain[grid], 100 * (all / few - 1), view.gain[grid]);
   add("volumes without occluders", "", kNoFigure, countOf(ofAll.stats, "light_volumes"), kNoFigure);

@@ -1,6 +1,7 @@
 #include "report/paper_scenes.h"
 
 #include "core/error.h"
+#include "scene/load.h"
 
 namespace nephroid {
 
@@ -16,6 +17,10 @@ std::filesystem::path paperScenes(const PaperBench& bench) {
   }
   throw InputError("the papers' scenes are not there; looked in " + looked +
                    " (name their folder with --scenes)");
+}
+
+Scene loadPaper3(const std::filesystem::path& folder, const std::string& name) {
+  return loadScene(folder / ("paper3-" + name + ".toml"));
 }
 
 }  // namespace nephroid

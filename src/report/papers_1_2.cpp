@@ -42,7 +42,7 @@ constexpr std::array<Row, 14> kRows{{
 }};
 
 constexpr double kTimesFasterAsked = 5000;  // preprocessing
-constexpr FrameBench::Counts kCounts{.warmUps = 2, .frames = 15};
+constexpr FrameBench::Counts kCountsOfRows{.warmUps = 2, .frames = 15};
 
 // Turned about the axis y through the origin, then moved.
 struct Motion {
@@ -81,8 +81,9 @@ double framesPerSecond(gpu::Device& device, const Scene& scene, const Row& row, 
   RenderSettings render;
   render.sight.slices = row.slices;
   FrameBench bench(device, scene, {}, render, progress);
-  progress.begin(std::string("frames of ") + row.scene, uint64_t(kCounts.warmUps + kCounts.frames));
-  const double seconds = bench.seconds(kCounts, [&](int frame) {
+  progress.begin(std::string("frames of ") + row.scene,
+                 uint64_t(kCountsOfRows.warmUps + kCountsOfRows.frames));
+  const double seconds = bench.seconds(kCountsOfRows, [&](int frame) {
     progress.advance();
     return moved(scene, frame);
   });

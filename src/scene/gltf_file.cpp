@@ -11,7 +11,7 @@
 namespace nephroid {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = (std::uintmax_t{1} << 32) - 1;  // a GLB's own limit
+constexpr std::uintmax_t kLargestGltfFile = (std::uintmax_t{1} << 32) - 1;  // a GLB's own limit
 constexpr int kDeepestNesting = 200;
 constexpr std::size_t kMostElements = std::size_t{1} << 27;
 
@@ -44,7 +44,7 @@ std::string_view jsonOf(std::string_view bytes) {
 
 bool readWholeFile(std::vector<unsigned char>* out, std::string* error, const std::string& path, void*) {
   try {
-    const std::string bytes = readFile(path, kLargestFile);
+    const std::string bytes = readFile(path, kLargestGltfFile);
     out->assign(bytes.begin(), bytes.end());
     return true;
   } catch (const InputError& wrong) {
@@ -225,7 +225,7 @@ std::size_t gltfIndex(const GltfFile& file, int index, std::size_t count, const 
 }
 
 GltfFile openGltf(const std::filesystem::path& path) {
-  const std::string bytes = readFile(path, kLargestFile);
+  const std::string bytes = readFile(path, kLargestGltfFile);
   GltfFile file;
   file.source = oneLine(path.string());
   const bool isBinary = bytes.compare(0, 4, "glTF") == 0;

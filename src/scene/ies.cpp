@@ -15,7 +15,7 @@
 namespace nephroid {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{16} << 20;  // bytes
+constexpr std::uintmax_t kLargestIesFile = std::uintmax_t{16} << 20;  // bytes
 constexpr double kLargestNumber = 1e12;
 
 bool isBlank(char c) {
@@ -293,7 +293,7 @@ Profile readIes(const std::string& bytes, const std::string& source) {
 }
 
 Profile loadIes(const std::filesystem::path& file) {
-  return readIes(readFile(file, kLargestFile), oneLine(file.string()));
+  return readIes(readFile(file, kLargestIesFile), oneLine(file.string()));
 }
 
 }  // namespace nephroid

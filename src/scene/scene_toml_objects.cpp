@@ -15,7 +15,7 @@
 namespace nephroid {
 namespace {
 
-constexpr double kMostVertices = 4e6;
+constexpr double kMostShapeVertices = 4e6;
 constexpr double kVertexSlack = 1.1;
 
 Material readDielectric(TomlTable& table) {
@@ -161,7 +161,8 @@ class ObjectReader {
   uint32_t meshFrom(TomlTable& table) {
     const std::string name = table.requiredText("mesh");
     const auto path = findModel(name, scene_.file.parent_path(), table.at("mesh"));
-    const auto vertices = static_cast<uint32_t>(table.integer("vertices", {4, kMostVertices}).value_or(0));
+    const auto vertices =
+        static_cast<uint32_t>(table.integer("vertices", {4, kMostShapeVertices}).value_or(0));
     const auto known = meshOfFile_.find({path, vertices});
     if (known != meshOfFile_.end()) return known->second;
     Mesh mesh = loadMeshFile(path);

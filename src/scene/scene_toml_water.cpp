@@ -10,7 +10,7 @@ namespace nephroid {
 namespace {
 
 constexpr double kMostSegments = 1024;
-constexpr double kMostVertices = 4e6;
+constexpr double kMostWaterVertices = 4e6;
 constexpr Range kGrid{2, 8192};
 // Vertices times steps that a simulation may take up to a scene's time: some tens of seconds of one
 // processor.
@@ -99,7 +99,7 @@ uvec2 readGrid(TomlTable& table, vec2 size) {
                                          : std::sqrt(area / density.vertices);
     grid = glm::clamp(uvec2(glm::round(size / static_cast<float>(edge))) + 1u, uvec2(2), uvec2(8192));
   }
-  if (static_cast<double>(grid.x) * grid.y > kMostVertices)
+  if (static_cast<double>(grid.x) * grid.y > kMostWaterVertices)
     table.fail("grid", "is more than 4000000 vertices; make it smaller");
   return grid;
 }
@@ -132,7 +132,7 @@ Mesh readSequence(TomlTable& table, const Scene& scene) {
 
 Density readDensity(TomlTable& table) {
   const auto segments = table.integer("segments", {1, kMostSegments});
-  const auto vertices = table.integer("vertices", {3, kMostVertices});
+  const auto vertices = table.integer("vertices", {3, kMostWaterVertices});
   if (segments && vertices) table.fail("segments", "and \"vertices\" cannot both be given");
   return {static_cast<uint32_t>(segments.value_or(0)), static_cast<uint32_t>(vertices.value_or(0))};
 }

@@ -121,7 +121,7 @@ void TomlText::prepend(const toml::table& table, const std::string& key, const T
     return insert(first, tomlInlineTable(entries) + (beginsLine ? ",\n" + indent : ", "));
   }
   std::string text = slice(first, text_.find("]]", first) + 2);
-  for (const auto& [name, value] : entries) text += "\n" + name + " = " + value;
+  for (const auto& [name, value] : entries) text.append("\n").append(name).append(" = ").append(value);
   insert(first, text + "\n\n");
 }
 

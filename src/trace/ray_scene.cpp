@@ -1,12 +1,12 @@
 #include "trace/ray_scene.h"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include <atomic>
 
 #include "core/error.h"
+#include "core/index_range.h"
 #include "optics/curved_triangle.h"
 #include "trace/smooth_patches.h"
 
@@ -351,10 +351,9 @@ Ray RayScene::leavingTriangle(const Hit& hit, vec3 direction) const {
 }
 
 std::size_t RayScene::replay(std::span<const Ray> rays) const {
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
   return oneapi::tbb::parallel_reduce(
-      Range(0, rays.size(), 1024), std::size_t{0},
-      [&](const Range& range, std::size_t hits) {
+      IndexRange(0, rays.size(), 1024), std::size_t{0},
+      [&](const IndexRange& range, std::size_t hits) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           RTCRayHit query = embreeQuery(rays[i]);
           embreeIntersect(impl->root(), query);

@@ -16,7 +16,7 @@
 namespace nephroid {
 namespace {
 
-constexpr VkFormat kFloats = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kSightFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kNormals = VK_FORMAT_R32_UINT;
 constexpr VkFormat kReceivers = VK_FORMAT_R32G32B32A32_UINT;
@@ -26,7 +26,7 @@ constexpr float kFarthestWay = 1e5f;  // m in water, where nothing is met
 
 gpu::Program casterProgram(gpu::Device& device, const char* name, const gpu::RasterState& depth) {
   gpu::RasterState state = depth;
-  state.colors.assign(5, {kFloats});
+  state.colors.assign(5, {kSightFormat});
   state.colors.push_back({kReceivers});
   state.depthFormat = kDepth;
   return gpu::createRasterProgram(device, name, shaders::caster_vert, shaders::caster_frag, state);
@@ -34,7 +34,7 @@ gpu::Program casterProgram(gpu::Device& device, const char* name, const gpu::Ras
 
 gpu::Program lookingProgram(gpu::Device& device, const char* name, std::span<const uint32_t> fragment) {
   return gpu::createRasterProgram(device, name, shaders::whole_picture_vert, fragment,
-                                  {.colors = {{kFloats}, {kFloats}, {kFloats}}});
+                                  {.colors = {{kSightFormat}, {kSightFormat}, {kSightFormat}}});
 }
 
 gpu::Program sliceProgram(gpu::Device& device, const char* name, uint32_t hasTexture) {
@@ -70,7 +70,8 @@ SightPass::SightPass(gpu::Device& device, const SightSettings& settings)
       sliceProgram_(sliceProgram(device, "slice", VK_FALSE)),
       texturedSliceProgram_(sliceProgram(device, "textured slice", VK_TRUE)),
       waysProgram_(gpu::createRasterProgram(device, "ways in water", shaders::whole_picture_vert,
-                                            shaders::ways_frag, {.colors = {{kFloats}, {kFloats}}})) {}
+                                            shaders::ways_frag,
+                                            {.colors = {{kSightFormat}, {kSightFormat}}})) {}
 
 void SightPass::update(SceneTransport& transport, const View& view, uvec2 pictureSize,
                        const std::vector<MeshExtent>& extents) {
@@ -210,7 +211,7 @@ std::vector<Lattice> SightPass::lattices() const {
 
 void SightPass::ensureImages(uvec2 pictureSize) {
   if (casters_.empty()) return;
-  const auto picture = [&](const char* name, VkFormat format = kFloats) {
+  const auto picture = [&](const char* name, VkFormat format = kSightFormat) {
     return gpu::createImage(device_, name,
                             {.format = format, .width = pictureSize.x, .height = pictureSize.y});
   };

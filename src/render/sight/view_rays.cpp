@@ -1,6 +1,5 @@
 #include "render/sight/view_rays.h"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/index_range.h"
 #include "optics/curved_triangle.h"
 #include "optics/refraction.h"
 #include "scene/framing.h"
@@ -334,8 +334,7 @@ template <class Find>
 void forUsedVertices(SightMesh& mesh, const Find& find) {
   std::vector<bool> isUsed(mesh.vertices.size(), false);
   for (const uint32_t i : mesh.indices) isUsed[i] = true;
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
-  oneapi::tbb::parallel_for(Range(0, mesh.vertices.size(), kBlock), [&](const Range& range) {
+  oneapi::tbb::parallel_for(IndexRange(0, mesh.vertices.size(), kBlock), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
       if (isUsed[i]) find(mesh.vertices[i]);
   });

@@ -5,8 +5,8 @@
 namespace nephroid {
 namespace {
 
-PlaneSet plan(const Scene&, const LightPortion& portion, std::span<const ReceiverBox> boxes,
-              const TechniqueSettings& settings) {
+PlaneSet planTextures(const Scene&, const LightPortion& portion, std::span<const ReceiverBox> boxes,
+                      const TechniqueSettings& settings) {
   return planAlongLight(portion, boxes, std::max(settings.planes, 1u), settings.textureSize);
 }
 
@@ -14,7 +14,8 @@ PlaneSet plan(const Scene&, const LightPortion& portion, std::span<const Receive
 
 std::unique_ptr<Technique> makeIlluminationTextures(const TechniqueContext& context) {
   return std::make_unique<PlaneTechnique>(
-      context, PlaneTechniqueTraits{plan, true, false, "receivers from the light", "illumination textures"});
+      context,
+      PlaneTechniqueTraits{planTextures, true, false, "receivers from the light", "illumination textures"});
 }
 
 }  // namespace nephroid

@@ -33,8 +33,8 @@ uint32_t automaticSlices(const PlaneSet& pair) {
   return std::bit_ceil(uint32_t(std::clamp(slices, 1.0f, kMostAutomaticSlices)));
 }
 
-PlaneSet plan(const Scene& scene, const LightPortion& portion, std::span<const ReceiverBox> boxes,
-              const TechniqueSettings& settings) {
+PlaneSet planSlices(const Scene& scene, const LightPortion& portion, std::span<const ReceiverBox> boxes,
+                    const TechniqueSettings& settings) {
   const std::vector<Beam>& beams = portion.beams;
   const std::vector<Arrival> arrivals = findArrivals(beams, boxes);
   const vec3 axis = meanViewingDirection(scene.camera, arrivals);
@@ -54,7 +54,7 @@ PlaneSet plan(const Scene& scene, const LightPortion& portion, std::span<const R
 
 std::unique_ptr<Technique> makeSlicedImages(const TechniqueContext& context) {
   return std::make_unique<PlaneTechnique>(
-      context, PlaneTechniqueTraits{plan, false, true, "receivers across the view", "caustics maps"});
+      context, PlaneTechniqueTraits{planSlices, false, true, "receivers across the view", "caustics maps"});
 }
 
 }  // namespace nephroid

@@ -14,7 +14,7 @@
 namespace nephroid {
 namespace {
 
-using Range = oneapi::tbb::blocked_range<uint32_t>;
+using RowRange = oneapi::tbb::blocked_range<uint32_t>;
 constexpr uint32_t kVerticesPerTask = 32;
 
 uint32_t toUnorm16(float x) {
@@ -112,8 +112,8 @@ float traceAll(const Filling& filling, const Mesh& mesh, const VertexTracer& tra
   for (uint32_t i = 0; i < filling.directions; ++i)
     local[i] = sampledDirection(i, layout.rings, layout.azimuths);
   return oneapi::tbb::parallel_reduce(
-      Range(0, layout.vertices * layout.bands, kVerticesPerTask), 0.0f,
-      [&](const Range& range, float longest) {
+      RowRange(0, layout.vertices * layout.bands, kVerticesPerTask), 0.0f,
+      [&](const RowRange& range, float longest) {
         std::vector<vec3> directions(filling.directions);
         std::vector<OutgoingRay> rays(filling.directions);
         for (uint32_t row = range.begin(); row < range.end(); ++row) {
@@ -140,7 +140,7 @@ TransportTable fillTable(const TableKey& key, const Mesh& mesh, const VertexTrac
   filling.pathLengths = std::make_unique_for_overwrite<float[]>(std::size_t{rows} * filling.directions);
   progress.begin("light transport table", rows);
   filling.layout.pathScale = traceAll(filling, mesh, trace, progress);
-  oneapi::tbb::parallel_for(Range(0, rows), [&](const Range& range) {
+  oneapi::tbb::parallel_for(RowRange(0, rows), [&](const RowRange& range) {
     for (uint32_t row = range.begin(); row < range.end(); ++row) packPathLengths(filling, row);
   });
   progress.finish();

@@ -1,6 +1,6 @@
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/index_range.h"
 #include "scene/volume.h"
 #include "transport/table/table.h"
 
@@ -12,8 +12,7 @@ OutgoingRay lookUp(const TransportTable& table, uint32_t vertex, vec3 direction,
 
 void tableRays(const TransportTable& table, const Mesh& mesh, const Placement& placement,
                const Material& material, const Emitter& emitter, uint32_t band, std::span<OutgoingRay> rays) {
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
-  oneapi::tbb::parallel_for(Range(0, rays.size(), 256), [&](const Range& range) {
+  oneapi::tbb::parallel_for(IndexRange(0, rays.size(), 256), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const vec3 incident = emitterDirection(emitter, placement.point(mesh.positions[i]));
       const vec3 local = placement.inverseDirection(incident) * vertexFrame(mesh.normals[i]);

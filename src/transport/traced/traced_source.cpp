@@ -1,8 +1,8 @@
 #include "transport/traced/traced_source.h"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/index_range.h"
 #include "optics/refraction.h"
 #include "scene/mesh_checks.h"
 #include "scene/volume.h"
@@ -131,8 +131,7 @@ void TracedSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (int corner = 0; corner < 3; ++corner)
       patches[mesh.triangles[t][corner]] = follower.rayScene().patchOf(object.mesh, t);
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
-  oneapi::tbb::parallel_for(Range(0, mesh.positions.size(), 64), [&](const Range& range) {
+  oneapi::tbb::parallel_for(IndexRange(0, mesh.positions.size(), 64), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
       rays[i] = vertexRay(query, uint32_t(i), patches[i]);
   });

@@ -1,0 +1,12 @@
+// What oneapi::tbb::parallel_for splits.
+#pragma once
+
+#include <oneapi/tbb/blocked_range.h>
+
+#include <cstddef>
+
+namespace nephroid {
+
+using IndexRange = oneapi::tbb::blocked_range<std::size_t>;
+
+}  // namespace nephroid
