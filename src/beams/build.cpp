@@ -10,7 +10,6 @@
 #include "beams/incident_flux.h"
 #include "optics/curved_triangle.h"
 #include "scene/air.h"
-#include "scene/mesh_checks.h"
 
 namespace nephroid {
 namespace {
@@ -357,11 +356,8 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
                    vec3 bandColor, const BeamSettings& settings) {
   const Object& object = scene.objects[query.object];
   const Mesh& mesh = scene.meshOf(object);
-  VertexRays vertices{mesh,
-                      object.placement,
-                      std::vector<OutgoingRay>(mesh.positions.size()),
-                      {},
-                      facetedPart(mesh) >= kPartWithEdges};
+  VertexRays vertices{
+      mesh, object.placement, std::vector<OutgoingRay>(mesh.positions.size()), {}, mesh.hasEdges()};
   source.vertexRays(query, vertices.rays);
   vertices.findSteadyTriangles();
 

@@ -24,7 +24,8 @@ struct BeamSettings {
   // Texels of `targets` that the ray of a side's midpoint may lie off the middle of its ends' before the
   // triangle is cut.
   float refineTolerance = 0.1f;
-  // Without any, triangles are cut where their corners' rays part, alone.
+  // Where it is judged whether rays bend. Without any, triangles are cut where their corners' rays part,
+  // alone.
   std::vector<BeamTarget> targets;
   // Only rays that go on through other casters are taken to bend.
   bool isEvenAtSurface = false;

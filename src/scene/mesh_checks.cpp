@@ -130,6 +130,22 @@ void averageNormals(Mesh& mesh) {
   }
 }
 
+float facetedPart(const Mesh& mesh) {
+  constexpr float kEven = 1 - 1e-6f;  // cosine
+  double area = 0, evenArea = 0;
+  for (const uvec3& t : mesh.triangles) {
+    const vec3 a = mesh.positions[t.x];
+    const vec3 doubledArea = cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+    const float doubled = length(doubledArea);
+    area += double(doubled);
+    const bool isEven = std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](uint32_t corner) {
+      return dot(mesh.normals[corner], doubledArea) >= kEven * doubled;
+    });
+    if (isEven) evenArea += double(doubled);
+  }
+  return area > 0 ? float(evenArea / area) : 0;
+}
+
 }  // namespace
 
 std::vector<uint32_t> joinEqualPositions(const std::vector<vec3>& positions) {
@@ -180,22 +196,6 @@ std::pair<vec3, vec3> boundingBox(const Mesh& mesh) {
   return {lower, upper};
 }
 
-float facetedPart(const Mesh& mesh) {
-  constexpr float kEven = 1 - 1e-6f;  // cosine
-  double area = 0, evenArea = 0;
-  for (const uvec3& t : mesh.triangles) {
-    const vec3 a = mesh.positions[t.x];
-    const vec3 doubledArea = cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
-    const float doubled = length(doubledArea);
-    area += double(doubled);
-    const bool isEven = std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](uint32_t corner) {
-      return dot(mesh.normals[corner], doubledArea) >= kEven * doubled;
-    });
-    if (isEven) evenArea += double(doubled);
-  }
-  return area > 0 ? float(evenArea / area) : 0;
-}
-
 void finishMesh(Mesh& mesh, const std::string& source) {
   requireUsable(mesh, source);
   if (!hasUsableNormals(mesh)) mesh.normals.clear();
@@ -209,6 +209,7 @@ void finishMesh(Mesh& mesh, const std::string& source) {
   if (mesh.triangles.empty()) throw InputError(source + ": every triangle of the mesh has zero area");
   mergeEqualVertices(mesh);
   if (mesh.normals.empty()) averageNormals(mesh);
+  mesh.facetedPart = facetedPart(mesh);
 }
 
 }  // namespace nephroid

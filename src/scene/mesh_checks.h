@@ -28,16 +28,11 @@ std::vector<uint32_t> joinEqualPositions(const std::vector<vec3>& positions);
 // Lower and upper corner of what the triangles use.
 std::pair<vec3, vec3> boundingBox(const Mesh& mesh);
 
-// The part of the surface that is of flat facets: all of a box's or a cut gem's, the ends of a cylinder's.
-float facetedPart(const Mesh& mesh);
-// A tenth of a surface of facets and more has edges at which light parts.
-constexpr float kPartWithEdges = 0.1f;
-
 // Makes a mesh ready for use, in place: checks that indices are in range and positions finite, merges equal
 // vertices, leaves out vertices that are not used and triangles without an area (counted in
-// droppedTriangles), sets isClosed, and makes the normals unit, or averages them by area from the faces at
-// equal positions where `normals` does not hold a usable one for every vertex. Throws InputError beginning
-// with `source`.
+// droppedTriangles), sets isClosed and facetedPart, and makes the normals unit, or averages them by area from
+// the faces at equal positions where `normals` does not hold a usable one for every vertex. Throws InputError
+// beginning with `source`.
 void finishMesh(Mesh& mesh, const std::string& source);
 
 }  // namespace nephroid

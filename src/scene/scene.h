@@ -75,6 +75,11 @@ struct Mesh {
   uint32_t droppedTriangles = 0;  // triangles without an area, left out when the mesh was made
   // The surface bends between vertices as their normals say (shapes); otherwise its triangles are flat.
   bool isCurved = false;
+  // The part of the surface that is of flat facets: all of a box's or a cut gem's, the ends of a cylinder's.
+  // None of water, which goes on smoothly however flat it is.
+  float facetedPart = 0;
+  bool isFaceted() const { return facetedPart > 0.99f; }
+  bool hasEdges() const { return facetedPart >= 0.1f; }  // at which light parts
 };
 
 // A rigid motion and a uniform scale; anything else is baked into the mesh when it is loaded, so that what is

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "scene/emitters.h"
-#include "scene/mesh_checks.h"
 
 namespace nephroid {
 namespace {
@@ -105,7 +104,7 @@ std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source
   const Object& object = scene.objects[query.object];
   const bool isWater = object.water.has_value();
   // Water's cells are as fine as its waves, and a facet does not bend: their rays part, where they do at all.
-  const bool isEven = isWater || facetedPart(scene.meshOf(object)) > 0.99f;
+  const bool isEven = isWater || scene.meshOf(object).isFaceted();
   if (isEven) refined.refineDepth = settings.refineDepth;
   if (isWater) refined.shadowTolerance = settings.shadowTolerance;
   std::vector<Beam> beams = beamsOf(scene, source, queries, refined);

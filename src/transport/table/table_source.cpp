@@ -1,17 +1,14 @@
 #include "transport/table/table_source.h"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 
+#include "core/index_range.h"
 #include "scene/framing.h"
-#include "scene/mesh_checks.h"
 
 namespace nephroid {
 namespace {
-
-using Range = oneapi::tbb::blocked_range<std::size_t>;
 
 bool isFlat(const Mesh& mesh) {
   return std::ranges::all_of(mesh.normals,
@@ -42,7 +39,7 @@ bool holdsAnother(const Scene& scene, const Object& object) {
 bool hasTable(const Scene& scene, const Object& object) {
   const Material& material = scene.materialOf(object);
   return material.type == MaterialType::dielectric && !material.thinWalled && !object.water &&
-         facetedPart(scene.meshOf(object)) < kPartWithEdges && !holdsAnother(scene, object);
+         !scene.meshOf(object).hasEdges() && !holdsAnother(scene, object);
 }
 
 TableSource::TableSource(const Scene& sceneOfTables, std::vector<std::optional<TransportTable>> tableOfObject,
@@ -54,7 +51,7 @@ TableSource::TableSource(const Scene& sceneOfTables, std::vector<std::optional<T
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const Object& object = scene.objects[i];
     const bool isMirror = scene.materialOf(object).type == MaterialType::mirror;
-    isRefined.push_back(!tables[i] && (!isMirror || facetedPart(scene.meshOf(object)) >= kPartWithEdges));
+    isRefined.push_back(!tables[i] && (!isMirror || scene.meshOf(object).hasEdges()));
   }
 }
 
@@ -85,7 +82,7 @@ void TableSource::meetScene(const TransportQuery& query, std::span<OutgoingRay> 
   for (uint32_t i = 0; i < scene.objects.size(); ++i)
     mayGoOn |= i != query.object && scene.isCaster(scene.objects[i]);
   if (!mayBeShaded && !mayGoOn) return;
-  oneapi::tbb::parallel_for(Range(0, rays.size(), 64), [&](const Range& range) {
+  oneapi::tbb::parallel_for(IndexRange(0, rays.size(), 64), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       if (rays[i].flags != 0) continue;
       if (mayBeShaded && !traced.isVertexLit(query, uint32_t(i)))
@@ -98,7 +95,7 @@ void TableSource::meetScene(const TransportQuery& query, std::span<OutgoingRay> 
 
 // Sight is followed where light is lost, and to what it meets.
 void TableSource::completeSight(const TransportQuery& query, std::span<OutgoingRay> rays) const {
-  oneapi::tbb::parallel_for(Range(0, rays.size(), 64), [&](const Range& range) {
+  oneapi::tbb::parallel_for(IndexRange(0, rays.size(), 64), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
       if (rays[i].flags == kRayLost)
         rays[i] = traced.vertexRay(query, uint32_t(i), 0);
