@@ -73,8 +73,8 @@ TechniqueSettings settingsFor(const Scene& scene, TechniqueSettings settings) {
 // For each portion of the light, texels along the sides of its textures: so that their sum stays bounded
 // however many ways light goes by reflection, those that carry less get fewer.
 std::vector<uint32_t> textureSizes(std::span<const LightPortion> portions, uint32_t full) {
-  constexpr std::size_t kAtFullSize = 8;  // the next 4 times, 16 times ... as many at a half, a quarter ...
-  constexpr uint32_t kFewestTexels = 32;
+  constexpr std::size_t kAtFullSize = 8;   // the next 4 times, 16 times ... as many at a half, a quarter ...
+  constexpr uint32_t kFewestTexels = 128;  // those of a sky have no more to begin with
   std::vector<double> fluxes;
   for (const LightPortion& portion : portions) {
     double sum = 0;
