@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
+#include <optional>
 
 #include "irradiance_volume/lookup.h"
 
@@ -10,11 +11,27 @@ namespace {
 
 constexpr VkDeviceSize kVectorBytes = 8, kTintBytes = 4;
 constexpr float kLargestHalf = 65504;
+constexpr float kOneColor = 1e-4f;  // of cells that keep colours in steps of 1/255
 
 void ensureImage(gpu::Device& device, gpu::Image& image, const char* name, VkFormat format, uvec3 size) {
   if (image && uvec3(image.width(), image.height(), image.layerCount()) == size) return;
   image =
       gpu::createImage(device, name, {.format = format, .width = size.x, .height = size.y, .layers = size.z});
+}
+
+// That of all cells with light, of mean 1.
+std::optional<vec3> commonColor(const VolumeView& volume, uint32_t first, std::size_t cells) {
+  std::optional<vec3> common;
+  for (std::size_t i = 0; i < cells; ++i) {
+    VolumeLight light = noLight();
+    addCell(volume, first + uint32_t(i), 1, light);
+    const float sum = light.color.x + light.color.y + light.color.z;
+    if (sum <= 0) continue;
+    const vec3 color = 3.0f / sum * light.color;
+    if (common && glm::any(glm::greaterThan(abs(color - *common), vec3(kOneColor)))) return std::nullopt;
+    if (!common) common = color;
+  }
+  return common.value_or(vec3(1));
 }
 
 VkDeviceSize texels(const gpu::Image& image) {
@@ -26,14 +43,19 @@ VkDeviceSize texels(const gpu::Image& image) {
 void stageCells(gpu::Device& device, CellImages& images, uvec3 size, uint32_t first,
                 std::span<const uint32_t> words) {
   ensureImage(device, images.vectors, "irradiance vectors", VK_FORMAT_R16G16B16A16_SFLOAT, size);
-  ensureImage(device, images.tints, "irradiance tints", VK_FORMAT_R16G16_SFLOAT, size);
   const std::size_t cells = std::size_t{size.x} * size.y * size.z;
+  const VolumeView volume{size, words.data()};
+  const std::optional<vec3> color = commonColor(volume, first, cells);
+  images.color = color.value_or(vec3(1));
+  if (color)
+    images.tints = {};
+  else
+    ensureImage(device, images.tints, "irradiance tints", VK_FORMAT_R16G16_SFLOAT, size);
   gpu::ensureBuffer(device, images.staged, "irradiance cells", cells * (kVectorBytes + kTintBytes),
                     gpu::MemoryKind::upload);
   const std::span<uint64_t> vectors = images.staged.as<uint64_t>();
   const std::span<uint32_t> tints =
       images.staged.as<uint32_t>().subspan(cells * kVectorBytes / sizeof(uint32_t));
-  const VolumeView volume{size, words.data()};
   for (std::size_t i = 0; i < cells; ++i) {
     VolumeLight light = noLight();
     addCell(volume, first + uint32_t(i), 1, light);
@@ -44,7 +66,8 @@ void stageCells(gpu::Device& device, CellImages& images, uvec3 size, uint32_t fi
 }
 
 uint64_t cellBytes(const CellImages& images) {
-  return images.vectors ? (kVectorBytes + kTintBytes) * texels(images.vectors) : 0;
+  if (!images.vectors) return 0;
+  return (kVectorBytes + (images.tints ? kTintBytes : 0)) * texels(images.vectors);
 }
 
 void copyCells(gpu::CommandList& commands, const CellImages& images) {
@@ -52,7 +75,8 @@ void copyCells(gpu::CommandList& commands, const CellImages& images) {
   const VkDeviceSize tintsFrom = kVectorBytes * texels(images.vectors);
   for (uint32_t layer = 0; layer < images.vectors.layerCount(); ++layer) {
     commands.copy(images.staged, layer * layerCells * kVectorBytes, images.vectors, layer);
-    commands.copy(images.staged, tintsFrom + layer * layerCells * kTintBytes, images.tints, layer);
+    if (images.tints)
+      commands.copy(images.staged, tintsFrom + layer * layerCells * kTintBytes, images.tints, layer);
   }
 }
 

@@ -9,7 +9,8 @@ namespace nephroid {
 
 struct CellImages {
   gpu::Image vectors;  // rgba16f, a layer for each z; a: how bright the cell is, as lookup.h weighs colours
-  gpu::Image tints;    // rg16f: the red and the blue part of that
+  gpu::Image tints;    // rg16f: the red and the blue part of that; none where all cells have one colour
+  vec3 color{1};       // that colour, of mean 1
   gpu::Buffer staged;
 };
 

@@ -52,6 +52,14 @@ struct HeldFlow {
   gpu::Buffer staged;
 };
 
+// What looking up light can leave out.
+struct LookUpTraits {
+  bool flows = false;
+  bool isTinted = false;
+  bool isNear = false;  // the lamp
+  auto operator<=>(const LookUpTraits&) const = default;
+};
+
 class IrradianceVolumes final : public Technique {
  public:
   explicit IrradianceVolumes(const TechniqueContext& context);
@@ -67,6 +75,7 @@ class IrradianceVolumes final : public Technique {
     VolumeConstants constants{};
     const HeldLight* light = nullptr;
     const HeldFlow* flow = nullptr;  // none where light stays
+    const gpu::Program* program = nullptr;
   };
 
   void addShares(const Object& object, IrradianceVolume& volume, const Emitter& emitter,
@@ -81,13 +90,14 @@ class IrradianceVolumes final : public Technique {
   const HeldLight& onDevice(IrradianceVolume& volume, uint32_t sample);
   void stage(HeldLight& held, const SampleLayout& layout, std::span<const uint32_t> words) const;
   const HeldFlow& staged(const LightFlow& flow);
+  const gpu::Program& programFor(const LookUpTraits& traits);
 
   gpu::Device& device;
   const TechniqueSettings settings;
   Stats& stats;
   SceneTransport& transport;
   SceneVolumes volumes;
-  gpu::Program program;
+  std::map<LookUpTraits, gpu::Program> programs;  // made when first needed
   gpu::Sampler cellSampler, moveSampler;
   CellImages noCells;  // bound where a share has none
   gpu::Image noMoves;
@@ -105,14 +115,24 @@ IrradianceVolumes::IrradianceVolumes(const TechniqueContext& context)
       stats(context.stats),
       transport(context.transport),
       volumes(sceneVolumes(transport.scene(), settings)),
-      program(gpu::createRasterProgram(device, "irradiance volume", shaders::whole_picture_vert,
-                                       shaders::volume_frag,
-                                       {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
-                                       {{0, uint32_t(settings.representation)}})),
       cellSampler(gpu::createSampler(device)),
       moveSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})),
       noMoves(gpu::createImage(device, "no irradiance flow", {})) {
   stageCells(device, noCells, uvec3(1), 0, std::array<uint32_t, kWordsOfCell>{});
+}
+
+const gpu::Program& IrradianceVolumes::programFor(const LookUpTraits& traits) {
+  const auto found = programs.find(traits);
+  if (found != programs.end()) return found->second;
+  return programs
+      .emplace(traits, gpu::createRasterProgram(
+                           device, "irradiance volume", shaders::whole_picture_vert, shaders::volume_frag,
+                           {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
+                           {{0, uint32_t(settings.representation)},
+                            {1, traits.flows ? 1u : 0u},
+                            {2, traits.isTinted ? 1u : 0u},
+                            {3, traits.isNear ? 1u : 0u}}))
+      .first->second;
 }
 
 void IrradianceVolumes::stage(HeldLight& held, const SampleLayout& layout,
@@ -178,7 +198,7 @@ void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& v
   constants.origin = -(placesPerMetre * (turn * centre)) - layout.placesPerUnit * layout.corner;
   constants.centre = centre;
   constants.inverseRadius = 1 / (placement.scale * volume.regionRadius());
-  constants.lux = lux;
+  constants.lux = lux * held.cells.color;
   constants.sizeAcross = layout.size.x | layout.size.y << 16;
   constants.sizeAndFlowSide = layout.size.z | flow.side << 16 | (isMirrored ? kIsMirrored : 0);
   constants.words = held.words ? held.words.address() : 0;
@@ -188,6 +208,7 @@ void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& v
   constants.nearness = nearness;
   share.light = &held;
   if (flow.side > 0) share.flow = &staged(flow);
+  share.program = &programFor({flow.side > 0, bool(held.cells.tints), nearness != vec3(0)});
 }
 
 void IrradianceVolumes::addShares(const Object& object, IrradianceVolume& volume, const Emitter& emitter,
@@ -284,11 +305,12 @@ void IrradianceVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& 
   drawCaustics(commands, points, causticsLux, [&] {
     for (const Share& share : shares) {
       const CellImages& cells = share.light->cells.vectors ? share.light->cells : noCells;
-      commands.draw(program, 3, 1, share.constants,
+      const gpu::Image& tints = cells.tints ? cells.tints : cells.vectors;  // any, where they are not read
+      commands.draw(*share.program, 3, 1, share.constants,
                     {*points.position,
                      *points.normal,
                      {cells.vectors, cellSampler},
-                     {cells.tints, cellSampler},
+                     {tints, cellSampler},
                      {share.flow ? share.flow->moves : noMoves, moveSampler}});
     }
   });

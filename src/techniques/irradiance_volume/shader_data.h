@@ -30,7 +30,7 @@ struct VolumeConstants {
   vec3 nearness;  // 1/m, of the lamp, as nearScale has it
 };
 
-// The volume is the image in its centre of what the quaternion turns to.
+// What the quaternion turns to is the volume reflected in its centre, point by point.
 SHARED_CONSTANT uint kIsMirrored = 0x80000000u;
 
 SHARED_FUNCTION vec3 turned(vec3 v, vec4 turn) {

@@ -22,6 +22,9 @@ vec3 flowMove(FlowView flow, uvec3 node) {
 #include "irradiance_volume/lookup.h"
 
 layout(constant_id = 0) const uint kRepresentation = 0;
+layout(constant_id = 1) const bool kFlows = true;
+layout(constant_id = 2) const bool kIsTinted = true;
+layout(constant_id = 3) const bool kIsNear = true;  // the lamp
 layout(push_constant, scalar) uniform Constants { VolumeConstants constants; };
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
@@ -38,9 +41,12 @@ VolumeLight gridLight(VolumeView volume, uint first, vec3 place) {
   const vec3 low = vec3(place.xy / end.xy, floor(layer)), high = vec3(low.xy, low.z + 1);
   const float part = layer - low.z;
   const vec4 vector = mix(textureLod(cellVectors, low, 0), textureLod(cellVectors, high, 0), part);
-  const vec2 tint = mix(textureLod(cellTints, low, 0).rg, textureLod(cellTints, high, 0).rg, part);
   light.vector = vector.xyz;
-  light.color = vec3(tint.x, vector.w - tint.x - tint.y, tint.y);
+  light.color = vec3(1);
+  if (kIsTinted) {
+    const vec2 tint = mix(textureLod(cellTints, low, 0).rg, textureLod(cellTints, high, 0).rg, part);
+    light.color = vec3(tint.x, vector.w - tint.x - tint.y, tint.y);
+  }
   return light;
 }
 
@@ -64,7 +70,7 @@ void main() {
   const vec4 point = imageLoad(receiverPosition, pixel);
   if (point.w == 0) return;
   const vec3 offset = point.xyz - constants.centre;
-  const float scale = nearScale(offset, constants.nearness);
+  const float scale = kIsNear ? nearScale(offset, constants.nearness) : 1;
   const vec3 there = scale * constants.inverseRadius * offset;
   const vec4 inRegion = placeInRegion(there, constants.source);
   if (scale == 0 || inRegion.w == 0) return;
@@ -75,12 +81,13 @@ void main() {
   const uvec3 size =
       uvec3(constants.sizeAcross & lower, constants.sizeAcross >> 16u, constants.sizeAndFlowSide & lower);
   VolumeView volume = VolumeView(size, constants.words);
-  VolumeLight light = flowedLight(volume, kRepresentation, flow, place);
+  VolumeLight light =
+      kFlows ? flowedLight(volume, kRepresentation, flow, place) : volumeLight(volume, kRepresentation, place);
   if (light.vector == vec3(0)) return;
   light.vector = toWorld(light.vector);
   if (inRegion.w < 1)
     light.vector = spreadOn(light.vector, normalize(inRegion.xyz), normalize(there - constants.source));
-  light.vector = nearVector(light.vector, offset, constants.nearness);
+  if (kIsNear) light.vector = nearVector(light.vector, offset, constants.nearness);
   const vec3 normal = imageLoad(receiverNormal, pixel).xyz;
   causticsLux = vec4(inRegion.w * constants.lux * surfaceIlluminance(light, normal), 0);
 }
