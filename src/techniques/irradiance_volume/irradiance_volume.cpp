@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "core/cache_folder.h"
 #include "gpu/program.h"
@@ -57,7 +58,9 @@ struct LookUpTraits {
   bool flows = false;
   bool isTinted = false;
   bool isNear = false;  // the lamp
-  auto operator<=>(const LookUpTraits&) const = default;
+  bool operator<(const LookUpTraits& other) const {
+    return std::tie(flows, isTinted, isNear) < std::tie(other.flows, other.isTinted, other.isNear);
+  }
 };
 
 class IrradianceVolumes final : public Technique {
