@@ -19,21 +19,6 @@ void ensureImage(gpu::Device& device, gpu::Image& image, const char* name, VkFor
       gpu::createImage(device, name, {.format = format, .width = size.x, .height = size.y, .layers = size.z});
 }
 
-// That of all cells with light, of mean 1.
-std::optional<vec3> commonColor(const VolumeView& volume, uint32_t first, std::size_t cells) {
-  std::optional<vec3> common;
-  for (std::size_t i = 0; i < cells; ++i) {
-    VolumeLight light = noLight();
-    addCell(volume, first + uint32_t(i), 1, light);
-    const float sum = light.color.x + light.color.y + light.color.z;
-    if (sum <= 0) continue;
-    const vec3 color = 3.0f / sum * light.color;
-    if (common && glm::any(glm::greaterThan(abs(color - *common), vec3(kOneColor)))) return std::nullopt;
-    if (!common) common = color;
-  }
-  return common.value_or(vec3(1));
-}
-
 VkDeviceSize texels(const gpu::Image& image) {
   return VkDeviceSize{image.width()} * image.height() * image.layerCount();
 }
@@ -44,25 +29,31 @@ void stageCells(gpu::Device& device, CellImages& images, uvec3 size, uint32_t fi
                 std::span<const uint32_t> words) {
   ensureImage(device, images.vectors, "irradiance vectors", VK_FORMAT_R16G16B16A16_SFLOAT, size);
   const std::size_t cells = std::size_t{size.x} * size.y * size.z;
-  const VolumeView volume{size, words.data()};
-  const std::optional<vec3> color = commonColor(volume, first, cells);
-  images.color = color.value_or(vec3(1));
-  if (color)
-    images.tints = {};
-  else
-    ensureImage(device, images.tints, "irradiance tints", VK_FORMAT_R16G16_SFLOAT, size);
   gpu::ensureBuffer(device, images.staged, "irradiance cells", cells * (kVectorBytes + kTintBytes),
                     gpu::MemoryKind::upload);
   const std::span<uint64_t> vectors = images.staged.as<uint64_t>();
   const std::span<uint32_t> tints =
       images.staged.as<uint32_t>().subspan(cells * kVectorBytes / sizeof(uint32_t));
+  const VolumeView volume{size, words.data()};
+  std::optional<vec3> color;  // of the first cell with light
+  bool isTinted = false;
   for (std::size_t i = 0; i < cells; ++i) {
     VolumeLight light = noLight();
     addCell(volume, first + uint32_t(i), 1, light);
     const float brightness = light.color.x + light.color.y + light.color.z;
+    if (brightness > 0) {
+      const vec3 own = 3.0f / brightness * light.color;
+      if (!color) color = own;
+      isTinted |= glm::any(glm::greaterThan(abs(own - *color), vec3(kOneColor)));
+    }
     vectors[i] = glm::packHalf4x16(vec4(light.vector, std::min(brightness, kLargestHalf)));
     tints[i] = glm::packHalf2x16(min(vec2(light.color.x, light.color.z), vec2(kLargestHalf)));
   }
+  images.color = isTinted ? vec3(1) : color.value_or(vec3(1));
+  if (isTinted)
+    ensureImage(device, images.tints, "irradiance tints", VK_FORMAT_R16G16_SFLOAT, size);
+  else
+    images.tints = {};
 }
 
 uint64_t cellBytes(const CellImages& images) {
