@@ -7,8 +7,8 @@
 
 #include "core/atomic_file.h"
 #include "core/stopwatch.h"
+#include "formats/load.h"
 #include "reference/photons.h"
-#include "scene/load.h"
 
 namespace nephroid {
 namespace {

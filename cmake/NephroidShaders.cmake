@@ -22,7 +22,7 @@ function(nephroid_shaders target)
       VERBATIM)
     # Those of the library, which knows gpu/.
     set(source_define)
-    if(NEPHROID_SHADER_RELOAD AND target STREQUAL nephroid)
+    if(NEPHROID_SHADER_RELOAD AND target MATCHES "^nephroid_")
       set(source_define -DSOURCE=${path})
     endif()
     add_custom_command(

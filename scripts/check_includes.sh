@@ -6,17 +6,23 @@ cd "$(dirname "$0")/.."
 rules="
 core
 optics core
-scene core optics
-trace core optics scene
-reference core optics scene trace
-transport core optics scene trace
-beams core optics scene transport
+geometry core
+water core geometry
+scene core optics geometry water
+lights core optics geometry water scene
+formats core optics geometry water scene lights
+trace core optics geometry water scene
+transport core optics geometry water scene lights trace
+beams core optics geometry water scene lights trace transport
 gpu core
-irradiance_volume core optics scene trace transport
-techniques core optics scene trace transport irradiance_volume beams gpu
-render core optics scene trace transport irradiance_volume beams gpu techniques
-report core optics scene trace reference transport irradiance_volume beams gpu techniques render
-viewer core optics scene trace reference transport irradiance_volume beams gpu techniques render report
+gpu_scene core geometry water scene gpu
+irradiance_volume core optics geometry water scene lights trace transport
+techniques core optics geometry water scene lights trace transport beams irradiance_volume gpu gpu_scene
+render core optics geometry water scene lights trace transport beams irradiance_volume gpu gpu_scene techniques
+reference core optics geometry water scene lights trace
+report core optics geometry water scene lights trace reference transport irradiance_volume beams gpu gpu_scene techniques render
+papers core optics geometry water scene lights formats trace reference transport irradiance_volume beams gpu gpu_scene techniques render report
+viewer core optics geometry water scene lights formats trace reference transport irradiance_volume beams gpu gpu_scene techniques render report
 "
 wrong=0
 complain() {

@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 build=$1
 
-sed -nE 's|^ *"file": "(.*)",?$|\1|p' "$build/compile_commands.json" | grep -E "/nephroid\.dir/Unity/|^($PWD|$(pwd -P))/src/" |
+sed -nE 's|^ *"file": "(.*)",?$|\1|p' "$build/compile_commands.json" | grep -E "/nephroid_[a-z_]+\.dir/Unity/|^($PWD|$(pwd -P))/src/" |
   xargs -r -n 1 -P "$(nproc)" clang-tidy -p "$build" --quiet --checks=-bugprone-suspicious-include --warnings-as-errors='*' 2>&1 |
   { grep --line-buffered -vE '^[0-9]+ warnings? generated|^Suppressed|^Use -header-filter|^$' || true; }
 exit "${PIPESTATUS[2]}"

@@ -3,11 +3,12 @@
 #include <random>
 
 #include "core/progress.h"
+#include "formats/load.h"
+#include "lights/light_in_air.h"
+#include "lights/light_intensity.h"
 #include "reference_scenes.h"
 #include "render/measure.h"
 #include "scene/air.h"
-#include "scene/light_intensity.h"
-#include "scene/load.h"
 #include "scratch_files.h"
 
 namespace nephroid {

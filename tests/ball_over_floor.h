@@ -1,8 +1,8 @@
 // The scene of Iwasaki 2005, figures 8 (a) and 12.
 #pragma once
 
+#include "geometry/shapes.h"
 #include "scene/scene.h"
-#include "scene/shapes.h"
 
 namespace nephroid {
 

@@ -9,12 +9,13 @@
 #include "beams/deposit.h"
 #include "beams/incident_flux.h"
 #include "closed_forms.h"
+#include "geometry/shapes.h"
+#include "lights/emitters.h"
 #include "optics/refraction.h"
 #include "render/measure.h"
-#include "scene/emitters.h"
-#include "scene/shapes.h"
 #include "transport/queries.h"
 #include "transport/traced/traced_source.h"
+#include "water/water.h"
 
 namespace nephroid {
 namespace {

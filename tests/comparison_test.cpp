@@ -9,10 +9,10 @@
 
 #include "core/error.h"
 #include "example_comparison.h"
+#include "geometry/shapes.h"
 #include "report/report_folder.h"
 #include "report/report_json.h"
 #include "report/seen_directly.h"
-#include "scene/shapes.h"
 #include "temporary_folder.h"
 
 namespace nephroid {

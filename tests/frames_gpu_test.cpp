@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "geometry/shapes.h"
 #include "gpu_fixture.h"
 #include "render/frame.h"
-#include "scene/shapes.h"
 #include "techniques/registry.h"
+#include "water/water.h"
 
 namespace nephroid {
 namespace {

@@ -1,14 +1,14 @@
-#include "scene/gltf.h"
+#include "formats/gltf.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "scene/diagnose.h"
-#include "scene/load.h"
-#include "scene/mesh_checks.h"
-#include "scene/save_scene.h"
-#include "scene/scene_toml.h"
+#include "formats/load.h"
+#include "formats/save_scene.h"
+#include "formats/scene_toml.h"
+#include "geometry/mesh_checks.h"
+#include "report/diagnose.h"
 #include "scratch_files.h"
 #include "shared_data.h"
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <random>
 
-#include "scene/ies.h"
-#include "scene/light_intensity.h"
+#include "formats/ies.h"
+#include "lights/light_intensity.h"
 #include "scratch_files.h"
 #include "shared_data.h"
 

@@ -1,10 +1,10 @@
 #include "techniques/irradiance_volume/irradiance_volume.h"
 
+#include "geometry/shapes.h"
 #include "gpu/command_list.h"
 #include "gpu/transfer.h"
 #include "gpu_fixture.h"
 #include "irradiance_volume/lookup.h"
-#include "scene/shapes.h"
 
 namespace nephroid {
 namespace {

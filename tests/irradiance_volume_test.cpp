@@ -7,11 +7,11 @@
 #include <numeric>
 
 #include "closed_forms.h"
+#include "geometry/shapes.h"
 #include "irradiance_volume/grid.h"
 #include "irradiance_volume/harmonics.h"
 #include "irradiance_volume/lookup.h"
 #include "irradiance_volumes.h"
-#include "scene/shapes.h"
 
 namespace nephroid {
 namespace {

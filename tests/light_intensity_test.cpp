@@ -1,12 +1,12 @@
 // Gobos, profiles and cones of spotlights, as a scene file gives them.
-#include "scene/light_intensity.h"
+#include "lights/light_intensity.h"
 
 #include <cmath>
 
 #include "core/image_io.h"
-#include "scene/diagnose.h"
-#include "scene/emitters.h"
-#include "scene/load.h"
+#include "formats/load.h"
+#include "lights/emitters.h"
+#include "report/diagnose.h"
 #include "scratch_files.h"
 #include "shared_data.h"
 

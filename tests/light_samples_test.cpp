@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/shapes.h"
 #include "irradiance_volumes.h"
-#include "scene/shapes.h"
 
 namespace nephroid {
 namespace {

@@ -4,13 +4,13 @@
 #include <numbers>
 #include <random>
 
+#include "formats/ies.h"
+#include "formats/load.h"
+#include "geometry/shapes.h"
 #include "gpu_fixture.h"
+#include "lights/light_intensity.h"
 #include "render/frame.h"
 #include "render/technique_meter.h"
-#include "scene/ies.h"
-#include "scene/light_intensity.h"
-#include "scene/load.h"
-#include "scene/shapes.h"
 #include "shared_data.h"
 #include "techniques/registry.h"
 

@@ -3,12 +3,12 @@
 
 #include <filesystem>
 
+#include "formats/ies.h"
+#include "formats/load.h"
+#include "lights/light_intensity.h"
+#include "lights/sky.h"
 #include "reference_scenes.h"
 #include "render/measure.h"
-#include "scene/ies.h"
-#include "scene/light_intensity.h"
-#include "scene/load.h"
-#include "scene/sky.h"
 #include "scratch_files.h"
 #include "sensor_blocks.h"
 #include "shared_data.h"

@@ -2,10 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/shapes.h"
 #include "gpu_fixture.h"
 #include "optics/refraction.h"
 #include "render/technique_meter.h"
-#include "scene/shapes.h"
+#include "water/water.h"
 
 namespace nephroid {
 namespace {

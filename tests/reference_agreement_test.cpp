@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "formats/mesh_file.h"
 #include "reference_scenes.h"
-#include "scene/mesh_file.h"
 
 namespace nephroid {
 namespace {

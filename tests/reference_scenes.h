@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/shapes.h"
 #include "reference/image.h"
 #include "reference/sensor.h"
-#include "scene/shapes.h"
 #include "statistics.h"
 
 namespace nephroid {

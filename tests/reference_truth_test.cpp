@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/image_io.h"
+#include "formats/load.h"
 #include "reference/sensor.h"
-#include "scene/load.h"
 #include "shared_data.h"
 
 namespace nephroid {

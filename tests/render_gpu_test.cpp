@@ -4,9 +4,9 @@
 
 #include "core/image_io.h"
 #include "gpu_fixture.h"
+#include "lights/emitters.h"
 #include "render/frame.h"
 #include "render/picture.h"
-#include "scene/emitters.h"
 #include "techniques/registry.h"
 #include "test_meshes.h"
 

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "report/paper_tables.h"
+#include "papers/paper_tables.h"
 
 namespace nephroid {
 namespace {

@@ -1,5 +1,5 @@
 // What is changed by hand and saved loads again as it was.
-#include "scene/save_scene.h"
+#include "formats/save_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <regex>
 
 #include "core/error.h"
+#include "formats/scene_toml.h"
 #include "scene/dispersion.h"
-#include "scene/scene_toml.h"
-#include "scene/wave_simulation.h"
+#include "water/wave_simulation.h"
 
 namespace nephroid {
 namespace {

@@ -2,12 +2,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/shapes.h"
 #include "gpu_fixture.h"
 #include "optics/refraction.h"
 #include "render/frame.h"
-#include "scene/shapes.h"
 #include "scene/volume.h"
 #include "techniques/registry.h"
+#include "water/water.h"
 
 namespace nephroid {
 namespace {

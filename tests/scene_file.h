@@ -1,7 +1,7 @@
 // Scenes that a test writes, and what is said of wrong ones.
 #pragma once
 
-#include "scene/load.h"
+#include "formats/load.h"
 #include "scratch_files.h"
 
 namespace nephroid {

@@ -3,9 +3,9 @@
 
 #include <cstdlib>
 
+#include "geometry/mesh_checks.h"
+#include "geometry/shapes.h"
 #include "scene/framing.h"
-#include "scene/mesh_checks.h"
-#include "scene/shapes.h"
 #include "scene_file.h"
 
 namespace nephroid {

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <random>
 
-#include "scene/load.h"
-#include "scene/mesh_file.h"
+#include "formats/load.h"
+#include "formats/mesh_file.h"
 #include "scratch_files.h"
 
 namespace nephroid {

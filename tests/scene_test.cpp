@@ -1,6 +1,6 @@
-#include "scene/diagnose.h"
+#include "geometry/mesh_checks.h"
+#include "report/diagnose.h"
 #include "scene/framing.h"
-#include "scene/mesh_checks.h"
 #include "scene_file.h"
 #include "shared_data.h"
 

@@ -4,10 +4,10 @@
 #include <random>
 
 #include "gpu_fixture.h"
+#include "lights/light_intensity.h"
 #include "reference_scenes.h"
 #include "render/frame.h"
 #include "scene/air.h"
-#include "scene/light_intensity.h"
 #include "techniques/registry.h"
 
 namespace nephroid {

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/mesh_checks.h"
-#include "scene/shapes.h"
+#include "geometry/mesh_checks.h"
+#include "geometry/shapes.h"
+#include "water/water.h"
 
 namespace nephroid {
 namespace {

@@ -5,10 +5,11 @@
 #include <numeric>
 
 #include "exact_sight.h"
+#include "geometry/shapes.h"
 #include "gpu_fixture.h"
 #include "render/frame.h"
-#include "scene/shapes.h"
 #include "techniques/registry.h"
+#include "water/water.h"
 
 namespace nephroid {
 namespace {

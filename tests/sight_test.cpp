@@ -1,10 +1,11 @@
 // Rays of sight at a caster, before they are drawn.
 #include <gtest/gtest.h>
 
+#include "geometry/shapes.h"
 #include "reference_scenes.h"
 #include "render/sight/view_rays.h"
-#include "scene/shapes.h"
 #include "transport/traced/traced_source.h"
+#include "water/water.h"
 
 namespace nephroid {
 namespace {

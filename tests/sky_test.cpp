@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/image_io.h"
+#include "formats/load.h"
+#include "lights/light_intensity.h"
+#include "lights/sky.h"
 #include "reference_scenes.h"
-#include "scene/light_intensity.h"
-#include "scene/load.h"
-#include "scene/sky.h"
 #include "scratch_files.h"
 #include "statistics.h"
 

@@ -10,9 +10,9 @@
 
 #include "ball_over_floor.h"
 #include "beams/build.h"
+#include "lights/emitters.h"
 #include "quantised_source.h"
 #include "render/measure.h"
-#include "scene/emitters.h"
 #include "techniques/planes/plan.h"
 #include "transport/queries.h"
 #include "transport/table/entry.h"

@@ -1,8 +1,9 @@
 // Techniques against the reference where light goes on, parts, or scatters all around.
+#include "geometry/shapes.h"
 #include "gpu_fixture.h"
 #include "render/technique_meter.h"
-#include "scene/shapes.h"
 #include "sensor_blocks.h"
+#include "water/water.h"
 
 namespace nephroid {
 namespace {

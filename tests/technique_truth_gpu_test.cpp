@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "core/image_io.h"
+#include "formats/load.h"
 #include "gpu_fixture.h"
 #include "render/technique_meter.h"
-#include "scene/load.h"
 #include "shared_data.h"
 
 namespace nephroid {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/image_io.h"
+#include "formats/load.h"
 #include "render/measure.h"
-#include "scene/load.h"
 #include "shared_data.h"
 #include "transport/traced/traced_source.h"
 

@@ -1,9 +1,9 @@
 // OpenVDB files as density grids of the air, and broken ones.
 #include <openvdb/openvdb.h>
 
+#include "formats/load.h"
+#include "formats/vdb.h"
 #include "scene/density_grid.h"
-#include "scene/load.h"
-#include "scene/vdb.h"
 #include "scratch_files.h"
 #include "temporary_folder.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <optional>
 
-#include "scene/load.h"
+#include "formats/load.h"
 
 namespace nephroid {
 namespace {

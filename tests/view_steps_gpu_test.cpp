@@ -5,7 +5,7 @@
 #include <regex>
 #include <span>
 
-#include "scene/scene_toml.h"
+#include "formats/scene_toml.h"
 
 namespace nephroid {
 namespace {

@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "core/image_io.h"
+#include "formats/load.h"
 #include "hidden_display.h"
 #include "run_program.h"
-#include "scene/load.h"
 #include "viewer/picking.h"
 
 namespace nephroid {

@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "core/error.h"
+#include "formats/scene_toml.h"
+#include "geometry/shapes.h"
 #include "scene/framing.h"
-#include "scene/scene_toml.h"
-#include "scene/shapes.h"
 #include "temporary_folder.h"
 #include "viewer/camera_control.h"
 #include "viewer/frame_times.h"

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/image_io.h"
-#include "scene/load.h"
-#include "scene/scene_toml.h"
+#include "formats/load.h"
+#include "formats/scene_toml.h"
 #include "scratch_files.h"
 #include "viewer/scene_state.h"
 #include "viewer/scene_time.h"

@@ -5,9 +5,9 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "geometry/shapes.h"
 #include "irradiance_volume/volume_file.h"
 #include "irradiance_volumes.h"
-#include "scene/shapes.h"
 #include "temporary_folder.h"
 
 namespace nephroid {

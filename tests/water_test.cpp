@@ -5,12 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/load.h"
-#include "scene/ocean.h"
-#include "scene/shapes.h"
-#include "scene/wave_simulation.h"
+#include "formats/load.h"
+#include "geometry/shapes.h"
 #include "scratch_files.h"
 #include "techniques/sources.h"
+#include "water/ocean.h"
+#include "water/water.h"
+#include "water/wave_simulation.h"
 
 namespace nephroid {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "command.h"
 #include "core/error.h"
+#include "formats/load.h"
 #include "irradiance_volume/volume_file.h"
-#include "scene/load.h"
 #include "techniques/irradiance_volume/irradiance_volume.h"
 #include "techniques/sources.h"
 #include "transport/table/table_file.h"

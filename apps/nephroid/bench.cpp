@@ -3,7 +3,7 @@
 
 #include "command.h"
 #include "core/atomic_file.h"
-#include "report/paper_tables.h"
+#include "papers/paper_tables.h"
 
 namespace nephroid {
 namespace {

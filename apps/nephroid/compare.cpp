@@ -4,13 +4,13 @@
 #include "command.h"
 #include "core/error.h"
 #include "drawing.h"
+#include "formats/load.h"
 #include "reference/image.h"
 #include "reference/sensor.h"
 #include "refining.h"
 #include "render/technique_meter.h"
 #include "report/report_folder.h"
 #include "report/seen_directly.h"
-#include "scene/load.h"
 #include "techniques/registry.h"
 
 namespace nephroid {

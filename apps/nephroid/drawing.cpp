@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "command.h"
-#include "scene/load.h"
+#include "formats/load.h"
 #include "techniques/registry.h"
 
 namespace nephroid {

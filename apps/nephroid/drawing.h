@@ -8,8 +8,8 @@
 
 #include "render/frame.h"
 #include "render/measure.h"
-#include "scene/wave_simulation.h"
 #include "techniques/settings.h"
+#include "water/wave_simulation.h"
 
 namespace nephroid {
 

@@ -4,9 +4,9 @@
 
 #include "command.h"
 #include "core/error.h"
+#include "formats/load.h"
 #include "gpu/device.h"
-#include "scene/diagnose.h"
-#include "scene/load.h"
+#include "report/diagnose.h"
 #include "techniques/registry.h"
 #include "transport/table/table_file.h"
 

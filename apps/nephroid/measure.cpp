@@ -6,10 +6,10 @@
 #include "core/error.h"
 #include "core/image_io.h"
 #include "drawing.h"
+#include "formats/load.h"
 #include "reference/sensor.h"
 #include "refining.h"
 #include "render/technique_meter.h"
-#include "scene/load.h"
 #include "techniques/sources.h"
 #include "transport/traced/traced_source.h"
 

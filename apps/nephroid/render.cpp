@@ -6,9 +6,9 @@
 
 #include "command.h"
 #include "drawing.h"
+#include "formats/load.h"
 #include "reference/image.h"
 #include "refining.h"
-#include "scene/load.h"
 
 namespace nephroid {
 namespace {

@@ -6,8 +6,8 @@
 #include "core/image.h"
 #include "gpu/swapchain.h"
 #include "gui.h"
-#include "render/show/output_view.h"
 #include "viewer.h"
+#include "viewer/show/output_view.h"
 #include "viewer/stage.h"
 #include "window.h"
 

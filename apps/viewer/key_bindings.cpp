@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "scene/emitters.h"
+#include "lights/emitters.h"
 #include "scene/framing.h"
 #include "techniques/registry.h"
 #include "viewer/camera_control.h"

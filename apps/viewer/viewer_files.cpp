@@ -5,10 +5,10 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/image_io.h"
-#include "scene/load.h"
-#include "scene/save_scene.h"
-#include "scene/scene_toml.h"
-#include "scene/toml_text.h"
+#include "formats/load.h"
+#include "formats/save_scene.h"
+#include "formats/scene_toml.h"
+#include "formats/toml_text.h"
 #include "viewer_loop.h"
 
 namespace nephroid {

@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
+#include "formats/save_scene.h"
 #include "gpu/reloadable_shader.h"
 #include "graphics.h"
 #include "key_bindings.h"
 #include "pointer.h"
-#include "scene/save_scene.h"
 #include "viewer.h"
 #include "viewer/preferences.h"
 #include "viewer/preparation.h"

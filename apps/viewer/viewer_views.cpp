@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/mesh_checks.h"
+#include "geometry/mesh_checks.h"
 #include "viewer_loop.h"
 
 namespace nephroid {

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "beams/incident_flux.h"
-#include "optics/curved_triangle.h"
-#include "scene/air.h"
+#include "geometry/curved_triangle.h"
+#include "lights/light_in_air.h"
 
 namespace nephroid {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "beams/beam.h"
 #include "beams/footprint.h"
-#include "scene/light_intensity.h"
+#include "lights/light_intensity.h"
 #include "transport/source.h"
 
 namespace nephroid {

@@ -1,7 +1,7 @@
 // What a light sends onto a triangle of a caster.
 #pragma once
 
-#include "scene/light_intensity.h"
+#include "lights/light_intensity.h"
 
 namespace nephroid {
 

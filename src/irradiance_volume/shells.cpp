@@ -30,20 +30,21 @@ float solidAnglePerSquare(vec2 square) {
 // Half the side of the square about the light's direction, on the octahedral map, that holds all paths' ends
 // but 0.1 % of their light.
 float lightReach(std::span<const PhotonPath> paths) {
-  constexpr std::size_t kBins = 256;
-  std::array<double, kBins> bins{};
+  constexpr std::size_t kShareBins = 256;
+  std::array<double, kShareBins> bins{};
   double sum = 0;
   for (const PhotonPath& path : paths)
     for (const float along : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
       const vec3 place = path.origin + along * path.length * path.direction;
       const vec2 aside = abs(octahedralFromDirection(normalize(place)) - 0.5f);
-      const auto bin = std::min(std::size_t(2 * std::max(aside.x, aside.y) * kBins), kBins - 1);
+      const auto bin = std::min(std::size_t(2 * std::max(aside.x, aside.y) * kShareBins), kShareBins - 1);
       bins[bin] += double(brightness(path)) * double(path.length);
       sum += double(brightness(path)) * double(path.length);
     }
-  std::size_t last = kBins;
-  for (double beyond = bins[kBins - 1]; beyond <= 0.001 * sum && last > 1; beyond += bins[last - 1]) --last;
-  return 0.5f * float(last) / kBins;
+  std::size_t last = kShareBins;
+  for (double beyond = bins[kShareBins - 1]; beyond <= 0.001 * sum && last > 1; beyond += bins[last - 1])
+    --last;
+  return 0.5f * float(last) / kShareBins;
 }
 
 // Shells as cells of a grid: across, across, from within outward.

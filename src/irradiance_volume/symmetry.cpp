@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "scene/mesh_checks.h"
+#include "geometry/mesh_checks.h"
 
 namespace nephroid {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/mesh_checks.h"
 #include "reference/sampling.h"
-#include "scene/mesh_checks.h"
 
 namespace nephroid {
 namespace {

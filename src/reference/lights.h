@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/random.h"
+#include "lights/light_intensity.h"
 #include "reference/sky_distribution.h"
-#include "scene/light_intensity.h"
 #include "trace/ray_scene.h"
 
 namespace nephroid {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "optics/box.h"
+#include "geometry/box.h"
 
 namespace nephroid {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/sky.h"
+#include "lights/sky.h"
 
 namespace nephroid {
 

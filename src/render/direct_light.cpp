@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "gpu/transfer.h"
-#include "scene/light_intensity.h"
+#include "lights/light_intensity.h"
 #include "shaders/air_vert.h"
 #include "shaders/direct_frag.h"
 #include "shaders/shadow_vert.h"

@@ -9,10 +9,10 @@
 #include "gpu/command_list.h"
 #include "gpu/program.h"
 #include "gpu/resources.h"
-#include "optics/light_shape.h"
+#include "gpu_scene/gpu_scene.h"
+#include "lights/light_shape.h"
 #include "render/frame_data.h"
 #include "render/shadow_maps.h"
-#include "techniques/gpu_scene.h"
 #include "techniques/technique.h"
 
 namespace nephroid {

@@ -2,9 +2,9 @@
 #ifndef NEPHROID_RENDER_FRAME_DATA_H
 #define NEPHROID_RENDER_FRAME_DATA_H
 
-#include "techniques/scene_data.h"
+#include "gpu_scene/scene_data.h"
 
-#include "optics/emitter.h"
+#include "lights/emitter.h"
 #include "render/air/air_data.h"
 
 SHARED_BEGIN

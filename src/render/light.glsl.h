@@ -1,7 +1,7 @@
 // One light: what stands in its way, by its shadow maps, and how gobo and profile shape it.
 #include "render/frame_data.h"
 
-#include "optics/light_shape.h"
+#include "lights/light_shape.h"
 
 layout(constant_id = 0) const uint kEmitterType = kEmitterPoint;
 // For each point: 0: nothing can shade; 1; or 6, the faces of a cube about the light: +x, -x, +y, -y, +z, -z.

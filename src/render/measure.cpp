@@ -4,9 +4,9 @@
 
 #include "beams/build.h"
 #include "beams/deposit.h"
-#include "scene/air.h"
-#include "scene/emitters.h"
-#include "scene/light_intensity.h"
+#include "lights/emitters.h"
+#include "lights/light_in_air.h"
+#include "lights/light_intensity.h"
 #include "transport/queries.h"
 
 namespace nephroid {

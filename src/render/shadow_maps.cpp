@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 
-#include "scene/emitters.h"
+#include "lights/emitters.h"
 
 namespace nephroid {
 namespace {

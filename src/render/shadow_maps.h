@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/emitters.h"
+#include "lights/emitters.h"
 
 namespace nephroid {
 

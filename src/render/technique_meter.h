@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "gpu/resources.h"
+#include "gpu_scene/gpu_scene.h"
 #include "render/measure.h"
-#include "techniques/gpu_scene.h"
 #include "techniques/registry.h"
 
 namespace nephroid {

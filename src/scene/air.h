@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "optics/air.h"
-#include "optics/emitter.h"
 #include "scene/density_grid.h"
 #include "scene/scene.h"
 #include "scene/volume.h"
@@ -38,15 +37,6 @@ inline float opticalDepth(const Medium& medium, vec3 from, vec3 direction, float
   const float way = std::min(length, kFarthestAir);
   if (medium.grid) return medium.extinction * densityAlong(*medium.grid, from, direction, way);
   return air.extinction * meanFogDensity(air, from.y, from.y + way * direction.y) * way;
-}
-
-// The part of an emitter's light that the air lets come to `point`. Light from afar is as strong as it is
-// said to be until it meets something.
-inline float airTransmittance(const Scene& scene, const Emitter& emitter, vec3 point) {
-  if (!scene.medium || emitter.type == kEmitterDirectional) return 1;
-  const vec3 offset = point - emitter.position;
-  const float way = length(offset);
-  return way > 0 ? std::exp(-opticalDepth(*scene.medium, emitter.position, offset / way, way)) : 1.0f;
 }
 
 }  // namespace nephroid

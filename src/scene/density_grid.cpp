@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optics/box.h"
+#include "geometry/box.h"
 
 namespace nephroid {
 namespace {

@@ -1,6 +1,6 @@
 #include "scene/framing.h"
 
-#include "scene/mesh_checks.h"
+#include "geometry/mesh_checks.h"
 
 namespace nephroid {
 

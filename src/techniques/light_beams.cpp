@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/emitters.h"
+#include "lights/emitters.h"
 
 namespace nephroid {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "gpu/command_list.h"
+#include "gpu_scene/gpu_scene.h"
 #include "scene/scene.h"
-#include "techniques/gpu_scene.h"
 #include "techniques/lattice.h"
 #include "techniques/pass_output.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/index_range.h"
-#include "optics/curved_triangle.h"
+#include "geometry/curved_triangle.h"
 #include "trace/smooth_patches.h"
 
 #if __has_include(<embree4/rtcore.h>)

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "optics/emitter.h"
+#include "lights/emitter.h"
 #include "scene/scene.h"
 #include "trace/media.h"
 #include "trace/paths.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lights/emitters.h"
 #include "render/view.h"
-#include "scene/emitters.h"
 #include "scene/framing.h"
 
 namespace nephroid {

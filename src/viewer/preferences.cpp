@@ -6,8 +6,8 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "scene/scene_toml.h"
-#include "scene/toml_table.h"
+#include "formats/scene_toml.h"
+#include "formats/toml_table.h"
 
 namespace nephroid {
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "scene/shapes.h"
+#include "geometry/shapes.h"
 #include "scene/volume.h"
+#include "water/water.h"
 
 namespace nephroid {
 namespace {

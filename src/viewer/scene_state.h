@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "scene/wave_simulation.h"
 #include "techniques/settings.h"
+#include "water/wave_simulation.h"
 
 namespace nephroid {
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "scene/scene_toml.h"
-#include "scene/shapes.h"
+#include "formats/scene_toml.h"
+#include "geometry/shapes.h"
+#include "water/water.h"
 
 namespace nephroid {
 namespace {

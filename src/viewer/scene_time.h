@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "scene/wave_simulation.h"
 #include "viewer/scene_state.h"
+#include "water/wave_simulation.h"
 
 namespace nephroid {
 

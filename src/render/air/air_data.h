@@ -4,8 +4,8 @@
 
 #include "gpu/buffer_address.h"
 
+#include "geometry/box.h"
 #include "optics/air.h"
-#include "optics/box.h"
 
 SHARED_BEGIN
 

@@ -3,7 +3,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "gpu/transfer.h"
-#include "scene/emitters.h"
+#include "lights/emitters.h"
 #include "shaders/box_depths_comp.h"
 
 namespace nephroid {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "gpu/transfer.h"
+#include "lights/emitters.h"
 #include "scene/air.h"
-#include "scene/emitters.h"
 #include "shaders/air_vert.h"
 #include "shaders/shafts_frag.h"
 #include "shaders/transmittance_frag.h"

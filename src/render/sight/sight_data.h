@@ -2,7 +2,7 @@
 #ifndef NEPHROID_RENDER_SIGHT_SIGHT_DATA_H
 #define NEPHROID_RENDER_SIGHT_SIGHT_DATA_H
 
-#include "techniques/scene_data.h"
+#include "gpu_scene/scene_data.h"
 
 SHARED_BEGIN
 

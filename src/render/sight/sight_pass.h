@@ -11,12 +11,12 @@
 
 #include "gpu/program.h"
 #include "gpu/resources.h"
+#include "gpu_scene/gpu_scene.h"
 #include "render/frame_resources.h"
 #include "render/shadow_maps.h"
 #include "render/sight/slices.h"
 #include "render/sight/ways_data.h"
 #include "render/view.h"
-#include "techniques/gpu_scene.h"
 #include "techniques/lattice.h"
 #include "techniques/sources.h"
 

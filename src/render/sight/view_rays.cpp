@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "core/index_range.h"
-#include "optics/curved_triangle.h"
+#include "geometry/curved_triangle.h"
+#include "geometry/mesh_checks.h"
 #include "optics/refraction.h"
 #include "scene/framing.h"
-#include "scene/mesh_checks.h"
 
 namespace nephroid {
 namespace {

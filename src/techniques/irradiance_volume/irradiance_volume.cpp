@@ -13,7 +13,7 @@
 #include "gpu/transfer.h"
 #include "irradiance_volume/harmonics.h"
 #include "irradiance_volume/volume_file.h"
-#include "scene/light_intensity.h"
+#include "lights/light_intensity.h"
 #include "shaders/volume_frag.h"
 #include "shaders/whole_picture_vert.h"
 #include "techniques/irradiance_volume/cell_images.h"

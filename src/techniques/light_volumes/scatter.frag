@@ -6,7 +6,7 @@
 #include "techniques/light_volumes/scatter_data.h"
 
 #include "core/octahedral.h"
-#include "optics/box.h"
+#include "geometry/box.h"
 #include "optics/phase.h"
 
 layout(push_constant, scalar) uniform Constants {

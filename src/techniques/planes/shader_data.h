@@ -2,7 +2,7 @@
 #ifndef NEPHROID_TECHNIQUES_PLANES_SHADER_DATA_H
 #define NEPHROID_TECHNIQUES_PLANES_SHADER_DATA_H
 
-#include "techniques/scene_data.h"
+#include "gpu_scene/scene_data.h"
 
 #include "techniques/planes/plane_set.h"
 #include "transport/outgoing_ray.h"

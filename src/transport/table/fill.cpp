@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "optics/curved_triangle.h"
+#include "geometry/curved_triangle.h"
 
 namespace nephroid {
 namespace {

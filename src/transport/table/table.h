@@ -11,7 +11,7 @@
 
 #include "core/progress.h"
 #include "core/shared_language.h"
-#include "optics/emitter.h"
+#include "lights/emitter.h"
 #include "scene/scene.h"
 #include "transport/outgoing_ray.h"
 #include "transport/table/lookup.h"

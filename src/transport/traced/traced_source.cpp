@@ -3,8 +3,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/index_range.h"
+#include "geometry/mesh_checks.h"
 #include "optics/refraction.h"
-#include "scene/mesh_checks.h"
 #include "scene/volume.h"
 
 namespace nephroid {

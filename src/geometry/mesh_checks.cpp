@@ -1,0 +1,215 @@
+#include "geometry/mesh_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+#include "core/error.h"
+
+namespace nephroid {
+namespace {
+
+using dvec3 = glm::dvec3;
+
+// Bytes as the key: -0 is made 0, and NaN never gets here.
+struct VertexKey {
+  std::array<float, 8> values{};
+  bool operator==(const VertexKey&) const = default;
+};
+
+struct VertexKeyHash {
+  std::size_t operator()(const VertexKey& key) const {
+    std::size_t hash = 0x9e3779b97f4a7c15ull;
+    for (const float value : key.values)
+      hash = (hash ^ std::hash<float>{}(value)) * 0x100000001b3ull + (hash >> 29);
+    return hash;
+  }
+};
+
+VertexKey keyOf(vec3 position) {
+  VertexKey key;
+  for (int i = 0; i < 3; ++i) key.values[static_cast<std::size_t>(i)] = position[i] + 0.0f;
+  return key;
+}
+
+VertexKey keyOf(const Mesh& mesh, std::size_t i) {
+  VertexKey key = keyOf(mesh.positions[i]);
+  for (int k = 0; k < 3 && !mesh.normals.empty(); ++k)
+    key.values[static_cast<std::size_t>(3 + k)] = mesh.normals[i][k];
+  for (int k = 0; k < 2 && !mesh.texcoords.empty(); ++k)
+    key.values[static_cast<std::size_t>(6 + k)] = mesh.texcoords[i][k];
+  return key;
+}
+
+constexpr float kLargestCoordinate = 1e9f;  // m; squares and areas beyond it leave single precision
+
+bool isFinite(vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+dvec3 areaVector(const Mesh& mesh, uvec3 t) {
+  const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+  return 0.5 * glm::cross(b - a, c - a);
+}
+
+// Flatter than what single precision can tell from a line.
+bool hasNoArea(const Mesh& mesh, uvec3 t) {
+  const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+  const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+  return !(glm::length(areaVector(mesh, t)) > 1e-9 * longest);
+}
+
+void requireUsable(const Mesh& mesh, const std::string& source) {
+  if (mesh.positions.empty()) throw InputError(source + ": the mesh has no vertices");
+  if (mesh.triangles.empty()) throw InputError(source + ": the mesh has no triangles");
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (!isFinite(mesh.positions[i])) {
+      throw InputError(source + ": vertex " + std::to_string(i) +
+                       " is not finite; all coordinates must be numbers");
+    }
+    if (glm::any(glm::greaterThan(glm::abs(mesh.positions[i]), vec3(kLargestCoordinate)))) {
+      throw InputError(source + ": vertex " + std::to_string(i) + " is farther than 1e9 m from the origin");
+    }
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const uvec3 t = mesh.triangles[i];
+    if (std::max({t.x, t.y, t.z}) >= mesh.positions.size()) {
+      throw InputError(source + ": triangle " + std::to_string(i) + " refers to vertex " +
+                       std::to_string(std::max({t.x, t.y, t.z})) + "; there are " +
+                       std::to_string(mesh.positions.size()));
+    }
+  }
+}
+
+bool hasUsableNormals(const Mesh& mesh) {
+  if (mesh.normals.size() != mesh.positions.size()) return false;
+  return std::all_of(mesh.normals.begin(), mesh.normals.end(), [](vec3 n) {
+    const float length = glm::length(n);
+    return std::isfinite(length) && length > 1e-6f;
+  });
+}
+
+void mergeEqualVertices(Mesh& mesh) {
+  std::unordered_map<VertexKey, uint32_t, VertexKeyHash> known;
+  known.reserve(mesh.positions.size());
+  Mesh merged;
+  for (uvec3& triangle : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t old = triangle[k];
+      const auto [entry, isNew] =
+          known.try_emplace(keyOf(mesh, old), static_cast<uint32_t>(merged.positions.size()));
+      triangle[k] = entry->second;
+      if (!isNew) continue;
+      merged.positions.push_back(mesh.positions[old]);
+      if (!mesh.normals.empty()) merged.normals.push_back(mesh.normals[old]);
+      if (!mesh.texcoords.empty()) merged.texcoords.push_back(mesh.texcoords[old]);
+    }
+  }
+  mesh.positions = std::move(merged.positions);
+  mesh.normals = std::move(merged.normals);
+  mesh.texcoords = std::move(merged.texcoords);
+}
+
+void averageNormals(Mesh& mesh) {
+  const std::vector<uint32_t> joined = joinEqualPositions(mesh.positions);
+  std::vector<dvec3> sums(mesh.positions.size(), dvec3(0));
+  for (const uvec3 t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) sums[joined[t[k]]] += areaVector(mesh, t);
+  }
+  mesh.normals.assign(mesh.positions.size(), vec3(0));
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const double length = glm::length(sums[joined[i]]);
+    if (length > 0) mesh.normals[i] = vec3(sums[joined[i]] / length);
+  }
+  // The faces around a vertex may cancel out (two sides of a sheet): any of them is as good.
+  for (const uvec3 t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      if (mesh.normals[t[k]] == vec3(0)) mesh.normals[t[k]] = vec3(glm::normalize(areaVector(mesh, t)));
+    }
+  }
+}
+
+float facetedPart(const Mesh& mesh) {
+  constexpr float kEven = 1 - 1e-6f;  // cosine
+  double area = 0, evenArea = 0;
+  for (const uvec3& t : mesh.triangles) {
+    const vec3 a = mesh.positions[t.x];
+    const vec3 doubledArea = cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+    const float doubled = length(doubledArea);
+    area += double(doubled);
+    const bool isEven = std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](uint32_t corner) {
+      return dot(mesh.normals[corner], doubledArea) >= kEven * doubled;
+    });
+    if (isEven) evenArea += double(doubled);
+  }
+  return area > 0 ? float(evenArea / area) : 0;
+}
+
+}  // namespace
+
+std::vector<uint32_t> joinEqualPositions(const std::vector<vec3>& positions) {
+  std::unordered_map<VertexKey, uint32_t, VertexKeyHash> first;
+  first.reserve(positions.size());
+  std::vector<uint32_t> joined(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    joined[i] = first.try_emplace(keyOf(positions[i]), static_cast<uint32_t>(i)).first->second;
+  }
+  return joined;
+}
+
+MeshTopology meshTopology(const Mesh& mesh) {
+  const std::vector<uint32_t> joined = joinEqualPositions(mesh.positions);
+  MeshTopology topology;
+  std::vector<std::pair<uint64_t, int>>
+      edges;  // both ends, smaller first; +1 or -1 for the way the face runs
+  edges.reserve(3 * mesh.triangles.size());
+  for (const uvec3 t : mesh.triangles) {
+    const std::array<uint32_t, 3> v{joined[t.x], joined[t.y], joined[t.z]};
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const uint32_t a = v[k], b = v[(k + 1) % 3];
+      edges.emplace_back(uint64_t{std::min(a, b)} << 32 | std::max(a, b), a < b ? 1 : -1);
+    }
+    topology.area += glm::length(areaVector(mesh, t));
+    topology.signedVolume += glm::dot(dvec3(mesh.positions[t.x]), areaVector(mesh, t)) / 3;
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    int turns = 0;
+    while (end < edges.size() && edges[end].first == edges[begin].first) turns += edges[end++].second;
+    if (end - begin == 1) ++topology.boundaryEdges;
+    if (end - begin > 2) ++topology.nonManifoldEdges;
+    if (end - begin == 2 && turns != 0) ++topology.flippedEdges;
+  }
+  return topology;
+}
+
+std::pair<vec3, vec3> boundingBox(const Mesh& mesh) {
+  vec3 lower(std::numeric_limits<float>::infinity()), upper = -lower;
+  for (const uvec3 t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      lower = glm::min(lower, mesh.positions[t[k]]);
+      upper = glm::max(upper, mesh.positions[t[k]]);
+    }
+  }
+  return {lower, upper};
+}
+
+void finishMesh(Mesh& mesh, const std::string& source) {
+  requireUsable(mesh, source);
+  if (!hasUsableNormals(mesh)) mesh.normals.clear();
+  for (vec3& n : mesh.normals) n = glm::normalize(n);
+  const std::size_t given = mesh.triangles.size();
+  // A flat triangle between three different vertices still holds its neighbours together, so the mesh is
+  // judged before it goes.
+  mesh.isClosed = meshTopology(mesh).isClosed();
+  std::erase_if(mesh.triangles, [&](uvec3 t) { return hasNoArea(mesh, t); });
+  mesh.droppedTriangles += static_cast<uint32_t>(given - mesh.triangles.size());
+  if (mesh.triangles.empty()) throw InputError(source + ": every triangle of the mesh has zero area");
+  mergeEqualVertices(mesh);
+  if (mesh.normals.empty()) averageNormals(mesh);
+  mesh.facetedPart = facetedPart(mesh);
+}
+
+}  // namespace nephroid

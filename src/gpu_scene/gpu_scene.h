@@ -1,0 +1,54 @@
+// A scene on the device: geometry and textures are sent once, and what may differ from frame to frame by
+// `place`.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "gpu/command_list.h"
+#include "gpu_scene/scene_data.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+// How one object is drawn: with GpuScene::indices(), its vertices and its texture.
+struct SceneDraw {
+  uint32_t object = 0;  // index in Scene::objects
+  MaterialType type = MaterialType::diffuse;
+  gpu::IndexRange range;
+  const gpu::Image* colorTexture = nullptr;  // white where the material has none
+};
+
+class GpuScene {
+ public:
+  GpuScene(gpu::Device& device, const Scene& scene);
+
+  // Takes placements, materials and the heights of water from `scene`, which has the objects and meshes this
+  // was made of. A rigid motion costs an upload of 52 bytes an object.
+  void place(const Scene& scene);
+
+  const std::vector<SceneDraw>& draws() const { return draws_; }  // one for each object, in their order
+  const gpu::Buffer& indices() const { return indices_; }
+  uint64_t vertices() const { return vertices_.address(); }    // SceneVertex[]
+  uint64_t objects() const { return objects_.address(); }      // SceneObject[]
+  uint64_t materials() const { return materials_.address(); }  // SceneMaterial[]
+  // Of Scene::textures, in linear half floats; white for kNone.
+  const gpu::Image& texture(uint32_t index) const {
+    return textures_[std::min<std::size_t>(index, textures_.size() - 1)];
+  }
+  const gpu::Sampler& textureSampler() const { return textureSampler_; }
+
+ private:
+  void writeVertices(const Mesh& mesh, std::size_t firstVertex);
+  void uploadTextures(gpu::Device& device, const Scene& scene);
+
+  std::vector<SceneDraw> draws_;
+  gpu::Buffer vertices_;
+  gpu::Buffer indices_;
+  gpu::Buffer objects_;
+  gpu::Buffer materials_;
+  std::vector<gpu::Image> textures_;  // as Scene::textures, and a white one last
+  gpu::Sampler textureSampler_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,11 @@
+// Figures 4 to 7 of paper 4 (Dobashi 2002).
+#pragma once
+
+#include "papers/paper_tables.h"
+
+namespace nephroid {
+
+// Writes its curves to bench.curves where that is named.
+PaperTable measurePaper4(const PaperBench& bench, Progress& progress);
+
+}  // namespace nephroid

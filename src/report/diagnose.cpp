@@ -1,0 +1,237 @@
+#include "report/diagnose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "geometry/mesh_checks.h"
+#include "lights/light_intensity.h"
+#include "scene/framing.h"
+
+namespace nephroid {
+namespace {
+
+constexpr double kFoldsOfAScan = 0.01;  // part of all triangles
+
+std::string counted(std::size_t n, const char* singular, const char* plural) {
+  return std::to_string(n) + " " + (n == 1 ? singular : plural);
+}
+
+bool isDark(const Light& light) {
+  return (light.type == LightType::directional ? light.illuminance : light.intensity) == vec3(0);
+}
+
+// Triangles with a vertex normal on the other side than their winding says.
+std::size_t trianglesAgainstNormals(const Mesh& mesh) {
+  return static_cast<std::size_t>(std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](uvec3 t) {
+    const vec3 face =
+        glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
+    const vec3 sum = mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z];
+    return glm::dot(face, sum) < 0;
+  }));
+}
+
+void judgeSurface(const Mesh& mesh, const MeshTopology& topology, CasterReport& report) {
+  auto& obstacles = report.obstacles;
+  if (!mesh.isClosed && topology.boundaryEdges > 0) {
+    obstacles.push_back("its mesh is open (" +
+                        counted(topology.boundaryEdges, "boundary edge", "boundary edges") +
+                        "): light that goes in does not come out by a surface everywhere");
+  }
+  if (topology.nonManifoldEdges > 0) {
+    obstacles.push_back("its mesh has " +
+                        counted(topology.nonManifoldEdges, "non-manifold edge", "non-manifold edges") +
+                        " with more than two faces: inside and outside are not told apart there");
+  }
+  if (topology.flippedEdges > 0) {
+    obstacles.push_back(counted(topology.flippedEdges, "edge", "edges") +
+                        " of its mesh have faces that run against each other: some are turned inside out");
+  }
+  if (mesh.isClosed && topology.signedVolume < 0) {
+    obstacles.push_back("its faces look inward (signed volume " + std::to_string(topology.signedVolume) +
+                        " m^3): turn them round");
+  }
+  const std::size_t against = trianglesAgainstNormals(mesh);
+  if (against > 0) {
+    // A few folds of a scan do no harm.
+    auto& lines = static_cast<double>(against) > kFoldsOfAScan * static_cast<double>(mesh.triangles.size())
+                      ? obstacles
+                      : report.notes;
+    lines.push_back(counted(against, "triangle", "triangles") + " of " +
+                    std::to_string(mesh.triangles.size()) +
+                    " look another way than the normals at their corners");
+  }
+}
+
+void judgeMaterial(const Material& material, CasterReport& report) {
+  if (material.type != MaterialType::dielectric) return;
+  if (material.thinWalled) {
+    report.obstacles.push_back(
+        "its material is thin-walled (KHR_materials_transmission without a volume thickness): light passes "
+        "straight "
+        "through");
+  }
+  if (material.ior == vec3(1)) report.obstacles.push_back("its index of refraction is 1: light is not bent");
+}
+
+void judgeLight(const Scene& scene, const Object& object, CasterReport& report) {
+  const auto [low, high] = worldBounds(scene, object);
+  const vec3 centre = 0.5f * (low + high);
+  const float radius = 0.5f * glm::distance(low, high);
+  if (scene.lights.empty()) {
+    report.obstacles.push_back("no light reaches it: the scene has none");
+    return;
+  }
+  const auto bright =
+      std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return !isDark(l); });
+  const auto reaching = std::count_if(scene.lights.begin(), scene.lights.end(),
+                                      [&](const Light& l) { return reaches(l, centre, radius); });
+  if (bright == 0) {
+    report.obstacles.push_back("no light reaches it: the intensity of every light is 0");
+  } else if (reaching == 0) {
+    report.obstacles.push_back("no light reaches it: it is outside the cone of every light");
+  }
+  for (const Light& light : scene.lights) {
+    const bool hasPlace = light.type == LightType::point || light.type == LightType::spot;
+    if (hasPlace && glm::all(glm::greaterThan(light.position, low)) &&
+        glm::all(glm::lessThan(light.position, high))) {
+      report.notes.push_back("the light \"" + light.name + "\" is inside its bounding box");
+    }
+  }
+}
+
+CasterReport judge(const Scene& scene, uint32_t index, bool hasReceiver) {
+  const Object& object = scene.objects[index];
+  const Mesh& mesh = scene.meshOf(object);
+  const MeshTopology topology = meshTopology(mesh);
+  CasterReport report;
+  report.object = index;
+  report.boundaryEdges = topology.boundaryEdges;
+  report.nonManifoldEdges = topology.nonManifoldEdges;
+  // A mirror sends light on from each face by itself, and water is open by its nature.
+  if (scene.materialOf(object).type == MaterialType::dielectric && !object.water) {
+    judgeSurface(mesh, topology, report);
+  }
+  judgeMaterial(scene.materialOf(object), report);
+  judgeLight(scene, object, report);
+  if (!hasReceiver)
+    report.obstacles.push_back("nothing receives its light: the scene has no diffuse object and no sensor");
+  return report;
+}
+
+void warnAboutScene(const Scene& scene, SceneReport& report) {
+  auto& warnings = report.warnings;
+  if (scene.objects.empty()) warnings.push_back("the scene has no objects");
+  if (scene.lights.empty()) warnings.push_back("the scene has no lights");
+  if (report.casters == 0 && !scene.objects.empty()) {
+    warnings.push_back("nothing makes caustics: no object is a dielectric or a mirror");
+  }
+  if (report.droppedTriangles > 0) {
+    warnings.push_back(counted(report.droppedTriangles, "triangle", "triangles") +
+                       " without an area left out");
+  }
+  for (const Material& material : scene.materials) {
+    if (material.emission != vec3(0)) {
+      warnings.push_back("the material \"" + material.name + "\" glows, but lights nothing else");
+    }
+  }
+}
+
+// What shapes a light besides its cone.
+std::string describeShape(const Scene& scene, const Light& light) {
+  std::ostringstream text;
+  if (light.goboTexture != kNone) {
+    const Texture& gobo = scene.textures[light.goboTexture];
+    text << "  " << light.name << ": gobo " << gobo.name << " (" << gobo.width << " x " << gobo.height
+         << ")\n";
+  }
+  if (light.profile != kNone) {
+    const Profile& profile = scene.profiles[light.profile];
+    text << "  " << light.name << ": profile " << profile.name << " (type "
+         << "CBA"[int(profile.type)] << ", " << profile.verticalAngles.size() << " vertical x "
+         << profile.horizontalAngles.size() << " horizontal angles; by itself " << profile.peak
+         << " cd at its peak, " << profileFlux(profile) << " lm)\n";
+  }
+  return text.str();
+}
+
+const char* nameOf(MaterialType type) {
+  switch (type) {
+    case MaterialType::dielectric:
+      return "dielectric";
+    case MaterialType::mirror:
+      return "mirror";
+    case MaterialType::diffuse:
+      break;
+  }
+  return "diffuse";
+}
+
+}  // namespace
+
+bool reaches(const Light& light, vec3 centre, float radius) {
+  if (isDark(light)) return false;
+  if (light.type != LightType::spot) return true;
+  const vec3 toCentre = centre - light.position;
+  const float distance = glm::length(toCentre);
+  if (distance <= radius) return true;
+  const float offAxis = std::acos(glm::clamp(glm::dot(toCentre / distance, light.direction), -1.0f, 1.0f));
+  return offAxis - std::asin(radius / distance) < glm::radians(light.outerAngle);
+}
+
+SceneReport diagnose(const Scene& scene) {
+  SceneReport report;
+  report.objects = scene.objects.size();
+  report.materials = scene.materials.size();
+  report.textures = scene.textures.size();
+  report.lights = scene.lights.size();
+  report.sensors = scene.sensors.size();
+  for (const Object& object : scene.objects) {
+    ++(scene.isCaster(object) ? report.casters : report.receivers);
+    report.triangles += scene.meshOf(object).triangles.size();
+    report.vertices += scene.meshOf(object).positions.size();
+    report.droppedTriangles += scene.meshOf(object).droppedTriangles;
+  }
+  const bool hasReceiver = report.receivers > 0 || report.sensors > 0;
+  for (uint32_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.isCaster(scene.objects[i])) report.casterReports.push_back(judge(scene, i, hasReceiver));
+  }
+  warnAboutScene(scene, report);
+  return report;
+}
+
+std::string describe(const Scene& scene, const SceneReport& report) {
+  std::ostringstream text;
+  text << scene.file.string() << "\n"
+       << "  " << counted(report.objects, "object", "objects") << " ("
+       << counted(report.casters, "caster", "casters") << ", "
+       << counted(report.receivers, "receiver", "receivers") << "), "
+       << counted(report.triangles, "triangle", "triangles") << ", "
+       << counted(report.vertices, "vertex", "vertices") << "\n"
+       << "  " << counted(report.materials, "material", "materials") << ", "
+       << counted(report.textures, "texture", "textures") << ", " << counted(report.lights, "light", "lights")
+       << ", " << counted(report.sensors, "sensor", "sensors") << "\n";
+  for (const Light& light : scene.lights) text << describeShape(scene, light);
+  std::size_t hindered = 0;
+  for (const CasterReport& caster : report.casterReports) {
+    const Object& object = scene.objects[caster.object];
+    const Mesh& mesh = scene.meshOf(object);
+    hindered += caster.obstacles.empty() ? 0u : 1u;
+    text << "  " << object.name << ": " << nameOf(scene.materialOf(object).type) << ", "
+         << counted(mesh.triangles.size(), "triangle", "triangles") << ", "
+         << (object.water    ? "water"
+             : mesh.isClosed ? "closed"
+                             : "open");
+    text << (caster.obstacles.empty() ? "; makes caustics\n" : "; will make no caustics, or poor ones:\n");
+    for (const std::string& obstacle : caster.obstacles) text << "    - " << obstacle << "\n";
+    for (const std::string& note : caster.notes) text << "    (" << note << ")\n";
+  }
+  if (hindered > 0) {
+    text << "  " << hindered << " of " << counted(report.casters, "caster", "casters")
+         << " will make no caustics, or poor ones\n";
+  }
+  for (const std::string& warning : report.warnings) text << "  warning: " << warning << "\n";
+  return text.str();
+}
+
+}  // namespace nephroid
