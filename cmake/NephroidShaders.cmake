@@ -1,18 +1,25 @@
 # nephroid_shaders(TARGET file.comp ...): compiles GLSL to SPIR-V at build time and embeds it as C++ arrays.
-# A shader src/a/b_c.comp is reached as nephroid::shaders::b_c_comp (std::span<const uint32_t>) from "shaders/b_c_comp.h". With
-# NEPHROID_SHADER_RELOAD it is a gpu::ReloadableShader.
+# A shader src/a/b_c.comp is reached as nephroid::shaders::a_b_c_comp (std::span<const uint32_t>) from "shaders/a/b_c_comp.h"; one
+# outside src/ has the whole of its path. With NEPHROID_SHADER_RELOAD it is a gpu::ReloadableShader.
+#
+# Shaders give their images names and no numbers: the compiler numbers them, and gpu::Program renumbers them for all its stages.
+# Names of images and constants stay in the SPIR-V, since programs are fed by them.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
-set(NEPHROID_SHADER_COMPILER ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -g0 -I${PROJECT_SOURCE_DIR}/src)
+set(NEPHROID_SHADER_COMPILER ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 --auto-map-bindings
+                             -I${PROJECT_SOURCE_DIR}/src)
 
 function(nephroid_shaders target)
   set(generated ${CMAKE_BINARY_DIR}/generated)
-  file(MAKE_DIRECTORY ${generated}/shaders)
   foreach(source ${ARGN})
     get_filename_component(path ${source} ABSOLUTE)
-    get_filename_component(name ${source} NAME)
-    string(REPLACE "." "_" symbol ${name})
-    set(words ${generated}/shaders/${symbol}.words)
-    set(header ${generated}/shaders/${symbol}.h)
+    file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${path})
+    string(REGEX REPLACE "^src/" "" name ${name})
+    string(REPLACE "." "_" place ${name})
+    string(REPLACE "/" "_" symbol ${place})
+    set(words ${generated}/shaders/${place}.words)
+    set(header ${generated}/shaders/${place}.h)
+    get_filename_component(folder ${words} DIRECTORY)
+    file(MAKE_DIRECTORY ${folder})
     add_custom_command(
       OUTPUT ${words}
       COMMAND ${NEPHROID_SHADER_COMPILER} -x -o ${words} --depfile ${words}.d ${path}
@@ -34,8 +41,8 @@ function(nephroid_shaders target)
     list(APPEND headers ${header})
   endforeach()
   # A custom command is known only in the folder it is written in, a target's dependencies everywhere.
-  string(MD5 folder ${CMAKE_CURRENT_SOURCE_DIR})
-  add_custom_target(${target}_shaders_${folder} DEPENDS ${headers})
-  add_dependencies(${target} ${target}_shaders_${folder})
+  string(MD5 here ${CMAKE_CURRENT_SOURCE_DIR})
+  add_custom_target(${target}_shaders_${here} DEPENDS ${headers})
+  add_dependencies(${target} ${target}_shaders_${here})
   target_include_directories(${target} PRIVATE ${generated})
 endfunction()

@@ -7,11 +7,15 @@
 
 #include "gpu_fixture.h"
 #include "optics/refraction.h"
-#include "shaders/gpu_test_affine_comp.h"
-#include "shaders/gpu_test_refraction_comp.h"
-#include "shaders/gpu_test_sample_comp.h"
-#include "shaders/gpu_test_triangle_frag.h"
-#include "shaders/gpu_test_triangle_vert.h"
+#include "shaders/tests/shaders/gpu_test_affine_comp.h"
+#include "shaders/tests/shaders/gpu_test_clash_frag.h"
+#include "shaders/tests/shaders/gpu_test_refraction_comp.h"
+#include "shaders/tests/shaders/gpu_test_sample_comp.h"
+#include "shaders/tests/shaders/gpu_test_shared_frag.h"
+#include "shaders/tests/shaders/gpu_test_shared_vert.h"
+#include "shaders/tests/shaders/gpu_test_triangle_frag.h"
+#include "shaders/tests/shaders/gpu_test_triangle_vert.h"
+#include "shaders/tests/shaders/gpu_test_weigh_comp.h"
 
 namespace nephroid {
 namespace {
@@ -23,7 +27,7 @@ struct AffineConstants {
 };
 
 gpu::Program affineProgram(gpu::Device& device) {
-  return gpu::createComputeProgram(device, "affine", shaders::gpu_test_affine_comp);
+  return gpu::createComputeProgram(device, "affine", shaders::tests_shaders_gpu_test_affine_comp);
 }
 
 TEST_F(GpuTest, IsListedAndUsable) {
@@ -108,17 +112,116 @@ TEST_F(GpuTest, PassesSeeWhatPassesBeforeThemWrote) {
   }
 }
 
-TEST_F(GpuTest, WrongConstantsOrImagesAreRefused) {
+// What a mistake of the caller's is answered with.
+std::string refusal(const std::function<void()>& mistake) {
+  try {
+    mistake();
+  } catch (const std::logic_error& error) {
+    return error.what();
+  }
+  return "no std::logic_error";
+}
+
+TEST_F(GpuTest, ConstantsOfAnotherSizeAreRefused) {
   const gpu::Program affine = affineProgram(device());
   EXPECT_EQ(affine.reflection().pushConstantBytes, 28u);
   EXPECT_EQ(affine.reflection().localSize[0], 64u);
-  const gpu::Image image = gpu::createImage(device(), "image", {.width = 4, .height = 4});
-  const gpu::Program sample = gpu::createComputeProgram(device(), "sample", shaders::gpu_test_sample_comp);
   device().submitAndWait([&](gpu::CommandList& commands) {
-    EXPECT_THROW(commands.dispatch(affine, {1, 1, 1}, 1.0f), std::logic_error);
-    EXPECT_THROW(commands.dispatch(affine, {1, 1, 1}, AffineConstants{}, {image}), std::logic_error);
-    EXPECT_THROW(commands.dispatch(sample, {1, 1, 1}, gpu::NoConstants{}, {image, image}), std::logic_error);
+    EXPECT_EQ(refusal([&] {
+                commands.dispatch(affine, {1, 1, 1}, 1.0f);
+              }),
+              "program affine takes 28 bytes of constants, not 4");
   });
+}
+
+TEST_F(GpuTest, ImagesThatDoNotFitTheProgramAreRefusedByName) {
+  const gpu::Program affine = affineProgram(device());
+  const gpu::Program sample =
+      gpu::createComputeProgram(device(), "sample", shaders::tests_shaders_gpu_test_sample_comp);
+  const gpu::Program weigh =
+      gpu::createComputeProgram(device(), "weigh", shaders::tests_shaders_gpu_test_weigh_comp);
+  const gpu::Image plain = gpu::createImage(device(), "plain", {.width = 4, .height = 4});
+  const gpu::Image layered = gpu::createImage(device(), "layered", {.width = 4, .height = 4, .layers = 2});
+  const gpu::Image depth =
+      gpu::createImage(device(), "depth", {.format = VK_FORMAT_D32_SFLOAT, .width = 4, .height = 4});
+  const gpu::Sampler sampler = gpu::createSampler(device());
+  device().submitAndWait([&](gpu::CommandList& commands) {
+    const auto refused = [&](const gpu::Program& program, gpu::Bindings bindings) {
+      return refusal([&] { commands.dispatch(program, {1, 1, 1}, gpu::NoConstants{}, bindings); });
+    };
+    EXPECT_EQ(refusal([&] {
+                commands.dispatch(affine, {1, 1, 1}, AffineConstants{}, {{"source", plain}});
+              }),
+              "program affine has no image \"source\"");
+    EXPECT_EQ(refused(sample, {{"source", plain, sampler}}), "program sample is not given image \"target\"");
+    EXPECT_EQ(refused(sample, {{"source", plain, sampler}, {"target", layered}, {"sauce", plain}}),
+              "program sample has no image \"sauce\"");
+    EXPECT_EQ(refused(sample, {{"source", plain, sampler}, {"target", layered}, {"target", layered}}),
+              "program sample is given image \"target\" twice");
+    EXPECT_EQ(refused(sample, {{"source", plain}, {"target", layered}}),
+              "program sample given \"source\": a sampler is missing or too many");
+    EXPECT_EQ(refused(sample, {{"source", plain, sampler}, {"target", plain}}),
+              "program sample given image \"plain\" for \"target\": one has layers, the other not");
+    EXPECT_EQ(refused(weigh, {{"sum", depth}, {"parts", {&plain, &plain}}}),
+              "program weigh given image \"depth\" for \"sum\": its format cannot be used so here");
+    EXPECT_EQ(refused(weigh, {{"sum", plain}, {"parts", plain}}),
+              "program weigh takes 2 images as \"parts\", not 1");
+  });
+}
+
+TEST_F(GpuTest, ImagesOfAnArrayAndConstantsAreKnownByTheirNames) {
+  const gpu::Image first = gpu::createImage(device(), "first", {.width = 3});
+  const gpu::Image second = gpu::createImage(device(), "second", {.width = 3});
+  const gpu::Image sum = gpu::createImage(device(), "sum", {.width = 3});
+  const gpu::Program weigh =
+      gpu::createComputeProgram(device(), "weigh", shaders::tests_shaders_gpu_test_weigh_comp,
+                                {{"kSecondWeight", 100}, {"kFirstWeight", 10}});
+  device().submitAndWait([&](gpu::CommandList& commands) {
+    commands.pass("clear", [&] {
+      commands.clear(first, vec4(1));
+      commands.clear(second, vec4(2));
+    });
+    commands.pass("weigh", [&] {
+      commands.dispatch(weigh, {3, 1, 1}, gpu::NoConstants{}, {{"parts", {&first, &second}}, {"sum", sum}});
+    });
+  });
+  EXPECT_EQ(gpu::download<vec4>(device(), sum), std::vector<vec4>(3, vec4(210)));
+}
+
+gpu::Program sharedProgram(gpu::Device& device, std::span<const uint32_t> fragment,
+                           const std::vector<gpu::SpecializationConstant>& constants) {
+  return gpu::createRasterProgram(device, "shared", shaders::tests_shaders_gpu_test_shared_vert, fragment,
+                                  {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT}}}, constants);
+}
+
+// The vertex and the fragment shader number neither images nor constants in the same way.
+TEST_F(GpuTest, ANameIsOneImageAndOneConstantInAllStages) {
+  const gpu::Image own = gpu::createImage(device(), "own", {});
+  const gpu::Image shade = gpu::createImage(device(), "shade", {});
+  const gpu::Image result = gpu::createImage(device(), "result", {.width = 2});
+  const gpu::Program shared =
+      sharedProgram(device(), shaders::tests_shaders_gpu_test_shared_frag, {{"kFactor", 2}});
+  device().submitAndWait([&](gpu::CommandList& commands) {
+    commands.pass("clear", [&] {
+      commands.clear(own, vec4(3));
+      commands.clear(shade, vec4(4));
+    });
+    commands.pass("draw", [&] {
+      commands.render({.colors = {{&result, 0, vec4(0)}}}, [&] {
+        commands.draw(shared, 3, 1, gpu::NoConstants{}, {{"shade", shade}, {"own", own}});
+      });
+    });
+  });
+  EXPECT_EQ(gpu::download<vec4>(device(), result), std::vector<vec4>(2, vec4(2 * (4 + 300 + 40))));
+}
+
+TEST_F(GpuTest, NamesThatShadersDoNotShareAreRefused) {
+  EXPECT_EQ(refusal([&] {
+              sharedProgram(device(), shaders::tests_shaders_gpu_test_shared_frag, {{"kFacto", 2}});
+            }),
+            "program shared has no constant \"kFacto\"");
+  EXPECT_EQ(refusal([&] { sharedProgram(device(), shaders::tests_shaders_gpu_test_clash_frag, {}); }),
+            "program shared: its shaders declare \"shade\" as images of different kinds");
 }
 
 struct TriangleConstants {
@@ -137,7 +240,8 @@ TEST_F(GpuTest, ATriangleCoversTheTexelsWhoseCentresItHolds) {
                                   {-1, 1, 0.7f}, {1, 1, 0.7f}, {1, -1, 0.7f}};
   const gpu::Buffer vertices = gpu::upload(device(), "corners", corners);
   const gpu::Program program = gpu::createRasterProgram(
-      device(), "triangle", shaders::gpu_test_triangle_vert, shaders::gpu_test_triangle_frag,
+      device(), "triangle", shaders::tests_shaders_gpu_test_triangle_vert,
+      shaders::tests_shaders_gpu_test_triangle_frag,
       {.colors = {{color.format(), gpu::Blend::add}}, .depthFormat = depth.format()});
   device().submitAndWait([&](gpu::CommandList& commands) {
     commands.pass("triangle", [&] {
@@ -166,11 +270,13 @@ TEST_F(GpuTest, ImagesAreSampledAndStoredToByLayer) {
   const auto bytes = std::as_bytes(std::span(texels));
   gpu::uploadImage(device(), small, {{bytes.begin(), bytes.end()}});
   const gpu::Sampler sampler = gpu::createSampler(device());
-  const gpu::Program sample = gpu::createComputeProgram(device(), "sample", shaders::gpu_test_sample_comp);
+  const gpu::Program sample =
+      gpu::createComputeProgram(device(), "sample", shaders::tests_shaders_gpu_test_sample_comp);
   device().submitAndWait([&](gpu::CommandList& commands) {
     commands.pass("clear", [&] { commands.clear(layered, vec4(0)); });
     commands.pass("sample", [&] {
-      commands.dispatch(sample, {9, 3, 1}, gpu::NoConstants{}, {{small, sampler}, layered});
+      commands.dispatch(sample, {9, 3, 1}, gpu::NoConstants{},
+                        {{"source", small, sampler}, {"target", layered}});
     });
   });
   EXPECT_EQ(gpu::download<vec4>(device(), layered, 0), std::vector<vec4>(27, vec4(0)));
@@ -194,7 +300,7 @@ TEST_F(GpuTest, RefractsAsTheHostDoes) {
   }
   const auto count = static_cast<uint32_t>(directions.size());
   const gpu::Program program =
-      gpu::createComputeProgram(device(), "refraction", shaders::gpu_test_refraction_comp);
+      gpu::createComputeProgram(device(), "refraction", shaders::tests_shaders_gpu_test_refraction_comp);
   const gpu::Buffer from = gpu::upload(device(), "directions", directions);
   const gpu::Buffer to = gpu::createBuffer(device(), "results", count * sizeof(vec4));
   for (const float eta : {1 / 1.5f, 1.5f}) {

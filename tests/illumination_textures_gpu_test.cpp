@@ -7,7 +7,7 @@
 #include "gpu/command_list.h"
 #include "gpu/transfer.h"
 #include "gpu_fixture.h"
-#include "shaders/deposit_comp.h"
+#include "shaders/techniques/planes/deposit_comp.h"
 #include "techniques/planes/shader_data.h"
 #include "techniques/registry.h"
 #include "test_meshes.h"
@@ -79,8 +79,9 @@ class IlluminationTexturesGpuTest : public GpuTest {
   using Textures = std::vector<std::vector<uint32_t>>;
   Textures deposit(const std::vector<Beam>& beams, const PlaneSet& set, uint32_t channels = 1,
                    std::optional<float> receiverDepth = std::nullopt) {
-    const gpu::Program program = gpu::createComputeProgram(device(), "deposit", shaders::deposit_comp,
-                                                           {{0, channels}, {1, receiverDepth.has_value()}});
+    const gpu::Program program = gpu::createComputeProgram(
+        device(), "deposit", shaders::techniques_planes_deposit_comp,
+        {{"kChannels", channels}, {"kFollowsReceivers", receiverDepth.has_value()}});
     const auto image = [&](const char* name, VkFormat format, uint32_t layers) {
       return gpu::createImage(device(), name,
                               {.format = format, .width = kSize, .height = kSize, .layers = layers});
@@ -100,7 +101,7 @@ class IlluminationTexturesGpuTest : public GpuTest {
         commands.render({.colors = {}, .depth = gpu::DepthAttachment{&depths, window, depth}}, [] {});
       commands.barrier();
       commands.dispatch(program, {count, 1, 1}, DepositConstants{set, from.address(), count, float(kSize)},
-                        {depths, normals, textures});
+                        {{"seenDepths", depths}, {"seenNormals", normals}, {"textures", textures}});
     });
     Textures units;
     for (uint32_t layer = 0; layer < layers; ++layer)

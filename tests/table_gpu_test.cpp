@@ -4,7 +4,7 @@
 #include "gpu/command_list.h"
 #include "gpu/transfer.h"
 #include "gpu_fixture.h"
-#include "shaders/gpu_test_table_comp.h"
+#include "shaders/tests/shaders/gpu_test_table_comp.h"
 #include "table_meshes.h"
 #include "transport/table/table.h"
 
@@ -36,7 +36,8 @@ TEST_F(TableGpuTest, ShadersLookUpAsTheHostDoes) {
   }
   const auto count = static_cast<uint32_t>(directions.size());
 
-  const gpu::Program program = gpu::createComputeProgram(device(), "table", shaders::gpu_test_table_comp);
+  const gpu::Program program =
+      gpu::createComputeProgram(device(), "table", shaders::tests_shaders_gpu_test_table_comp);
   const gpu::Buffer words =
       gpu::upload(device(), "words", std::vector<uint32_t>(table.words().begin(), table.words().end()));
   const gpu::Buffer layouts = gpu::upload(device(), "layout", std::vector<TableLayout>{table.view()});

@@ -7,8 +7,8 @@
 
 #include "gpu/transfer.h"
 #include "gui_data.h"
-#include "shaders/gui_frag.h"
-#include "shaders/gui_vert.h"
+#include "shaders/apps/viewer/gui_frag.h"
+#include "shaders/apps/viewer/gui_vert.h"
 
 namespace nephroid {
 namespace {
@@ -62,7 +62,8 @@ void chooseStyle(float scale) {
 Gui::Gui(gpu::Device& device, DesktopWindow& window)
     : device_(device),
       scale_(window.contentScale()),
-      program_(gpu::createRasterProgram(device, "panels", shaders::gui_vert, shaders::gui_frag,
+      program_(gpu::createRasterProgram(device, "panels", shaders::apps_viewer_gui_vert,
+                                        shaders::apps_viewer_gui_frag,
                                         {.colors = {{VK_FORMAT_R8G8B8A8_UNORM, gpu::Blend::over}}})),
       nearest_(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})),
       linear_(gpu::createSampler(device)) {
@@ -160,7 +161,7 @@ void Gui::record(gpu::CommandList& commands, const ImDrawData& data, const gpu::
                            {firstIndex + command.IdxOffset, command.ElemCount,
                             firstVertex + static_cast<int32_t>(command.VtxOffset)},
                            1, GuiConstants{vertices_.address(), 2.0f * framebufferScale / extent},
-                           {{*image.image, image.isSmooth ? linear_ : nearest_}});
+                           {{"image", *image.image, image.isSmooth ? linear_ : nearest_}});
     }
     firstIndex += static_cast<uint32_t>(list.IdxBuffer.Size);
     firstVertex += list.VtxBuffer.Size;

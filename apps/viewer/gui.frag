@@ -1,7 +1,7 @@
 // Panels, and pictures among them.
 #version 460
 
-layout(binding = 0) uniform sampler2D image;
+uniform sampler2D image;
 
 layout(location = 0) in vec2 texcoord;
 layout(location = 1) in vec4 color;

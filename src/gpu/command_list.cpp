@@ -8,8 +8,12 @@ namespace {
 
 constexpr VkAccessFlags2 kAnyAccess = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
 
-void expect(bool condition, const Program& program, const std::string& what) {
-  if (!condition) throw std::logic_error("program " + program.name() + " " + what);
+[[noreturn]] void refuse(const Program& program, const std::string& why) {
+  throw std::logic_error("program " + program.name() + " " + why);
+}
+
+std::string inQuotes(std::string_view name) {
+  return '"' + std::string(name) + '"';
 }
 
 void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 toStage, VkAccessFlags2 toAccess) {
@@ -47,6 +51,51 @@ VkClearValue clearValue(vec4 color) {
   VkClearValue value{};
   for (int i = 0; i < 4; ++i) value.color.float32[i] = color[i];
   return value;
+}
+
+VkDescriptorImageInfo imageInfo(const Program& program, const ReflectedBinding& wanted, const Binding& given,
+                                const Image& image) {
+  const bool isStorage = wanted.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+  const VkImageUsageFlags usage = isStorage ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_SAMPLED_BIT;
+  const auto refuseIt = [&](const char* why) {
+    refuse(program, "given image " + inQuotes(image.name()) + " for " + inQuotes(wanted.name) + ": " + why);
+  };
+  if (wanted.isLayered != image.isArray()) refuseIt("one has layers, the other not");
+  if ((image.usage() & usage) == 0) refuseIt("its format cannot be used so here");
+  return {given.sampler ? given.sampler->handle() : VK_NULL_HANDLE,
+          isStorage ? image.storageView() : image.view(), VK_IMAGE_LAYOUT_GENERAL};
+}
+
+uint64_t hashOf(const Binding& binding) {
+  return binding.name.hash;
+}
+
+// What is given besides all that the program has.
+void refuseOthers(const Program& program, Bindings bindings) {
+  for (const Binding& given : bindings) {
+    const std::string name = inQuotes(given.name.text);
+    if (std::ranges::count(program.reflection().bindings, given.name.hash, &ReflectedBinding::hash) == 0)
+      refuse(program, "has no image " + name);
+    if (std::ranges::count(bindings, given.name.hash, hashOf) > 1)
+      refuse(program, "is given image " + name + " twice");
+  }
+}
+
+// The images of all bindings of a program, one after the other.
+std::vector<VkDescriptorImageInfo> imagesFor(const Program& program, Bindings bindings) {
+  std::vector<VkDescriptorImageInfo> infos;
+  for (const ReflectedBinding& wanted : program.reflection().bindings) {
+    const auto* given = std::ranges::find(bindings, wanted.hash, hashOf);
+    if (given == bindings.end()) refuse(program, "is not given image " + inQuotes(wanted.name));
+    if (given->images.size() != wanted.count)
+      refuse(program, "takes " + std::to_string(wanted.count) + " images as " + inQuotes(wanted.name) +
+                          ", not " + std::to_string(given->images.size()));
+    if ((wanted.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER) != (given->sampler != nullptr))
+      refuse(program, "given " + inQuotes(wanted.name) + ": a sampler is missing or too many");
+    for (const Image* image : given->images) infos.push_back(imageInfo(program, wanted, *given, *image));
+  }
+  if (bindings.size() != program.reflection().bindings.size()) refuseOthers(program, bindings);
+  return infos;
 }
 
 }  // namespace
@@ -90,37 +139,25 @@ void CommandList::bind(const Program& program, std::span<const std::byte> consta
   const Reflection& reflection = program.reflection();
   // C++ pads a struct to its alignment, GLSL does not.
   const std::size_t padded = (reflection.pushConstantBytes + 7) / 8 * 8;
-  expect(constants.size() == reflection.pushConstantBytes || constants.size() == padded, program,
-         "takes " + std::to_string(reflection.pushConstantBytes) + " bytes of constants, not " +
-             std::to_string(constants.size()));
-  expect(bindings.size() == reflection.bindings.size(), program,
-         "takes " + std::to_string(reflection.bindings.size()) + " images, not " +
-             std::to_string(bindings.size()));
+  if (constants.size() != reflection.pushConstantBytes && constants.size() != padded)
+    refuse(program, "takes " + std::to_string(reflection.pushConstantBytes) + " bytes of constants, not " +
+                        std::to_string(constants.size()));
+  const std::vector<VkDescriptorImageInfo> images = imagesFor(program, bindings);
   vkCmdBindPipeline(commandBuffer_, program.bindPoint(), program.pipeline());
   if (reflection.pushConstantBytes > 0)
     vkCmdPushConstants(commandBuffer_, program.layout(), program.stages(), 0,
                        (reflection.pushConstantBytes + 3) / 4 * 4, constants.data());
 
-  std::vector<VkDescriptorImageInfo> images(bindings.size());
-  std::vector<VkWriteDescriptorSet> writes(bindings.size());
-  for (std::size_t i = 0; i < bindings.size(); ++i) {
-    const Binding& given = bindings.begin()[i];
-    const ReflectedBinding& wanted = reflection.bindings[i];
-    const bool isStorage = wanted.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    const bool isCombined = wanted.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    const std::string which = "given image \"" + given.image->name() + "\" for " + wanted.name;
-    expect(wanted.isArrayed == given.image->isArray(), program, which + ": one has layers, the other not");
-    expect(isCombined == (given.sampler != nullptr), program, which + ": a sampler is missing or too many");
-    expect(
-        (given.image->usage() & (isStorage ? VK_IMAGE_USAGE_STORAGE_BIT : VK_IMAGE_USAGE_SAMPLED_BIT)) != 0,
-        program, which + ": its format cannot be used so here");
-    images[i] = {given.sampler ? given.sampler->handle() : VK_NULL_HANDLE,
-                 isStorage ? given.image->storageView() : given.image->view(), VK_IMAGE_LAYOUT_GENERAL};
-    writes[i] = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-    writes[i].dstBinding = wanted.binding;
-    writes[i].descriptorCount = 1;
-    writes[i].descriptorType = wanted.type;
-    writes[i].pImageInfo = &images[i];
+  std::vector<VkWriteDescriptorSet> writes;
+  const VkDescriptorImageInfo* next = images.data();
+  for (const ReflectedBinding& binding : reflection.bindings) {
+    auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    write.dstBinding = static_cast<uint32_t>(writes.size());
+    write.descriptorCount = binding.count;
+    write.descriptorType = binding.type;
+    write.pImageInfo = next;
+    writes.push_back(write);
+    next += binding.count;
   }
   if (!writes.empty())
     vkCmdPushDescriptorSetKHR(commandBuffer_, program.bindPoint(), program.layout(), 0,
@@ -129,14 +166,15 @@ void CommandList::bind(const Program& program, std::span<const std::byte> consta
 
 void CommandList::dispatchBytes(const Program& program, uvec3 threads, std::span<const std::byte> constants,
                                 Bindings bindings) {
-  expect(program.bindPoint() == VK_PIPELINE_BIND_POINT_COMPUTE, program, "draws and cannot be dispatched");
+  if (program.bindPoint() != VK_PIPELINE_BIND_POINT_COMPUTE)
+    refuse(program, "draws and cannot be dispatched");
   bind(program, constants, bindings);
   uvec3 groups;
   for (int axis = 0; axis < 3; ++axis) {
     const uint32_t size = program.reflection().localSize[static_cast<std::size_t>(axis)];
     groups[axis] = threads[axis] / size + (threads[axis] % size != 0);
-    expect(groups[axis] <= device_.limits().maxComputeWorkGroupCount[axis], program,
-           "is dispatched over too much");
+    if (groups[axis] > device_.limits().maxComputeWorkGroupCount[axis])
+      refuse(program, "is dispatched over too much");
   }
   if (groups.x > 0 && groups.y > 0 && groups.z > 0)
     vkCmdDispatch(commandBuffer_, groups.x, groups.y, groups.z);

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/shared_language.h"
@@ -17,14 +18,26 @@
 
 namespace nephroid::gpu {
 
-// An image as a program's binding takes it: alone for `image2D` and `texture2D`, with a sampler for
-// `sampler2D`.
+// What a shader calls an image. It is known when C++ is compiled, so that names are compared as numbers while
+// a frame is recorded.
+struct ImageName {
+  consteval ImageName(const char* text_) : text(text_), hash(hashOfName(text_)) {}
+  const char* text;
+  uint64_t hash;
+};
+
+// An image, or the images of an array (`texture2D name[3]`), for the binding of that name: alone for
+// `image2D` and `texture2D`, with a sampler for `sampler2D`.
 struct Binding {
-  Binding(const Image& image_) : image(&image_) {}
-  Binding(const Image& image_, const Sampler& sampler_) : image(&image_), sampler(&sampler_) {}
-  const Image* image;
+  Binding(ImageName name_, const Image& image) : name(name_), images{&image} {}
+  Binding(ImageName name_, const Image& image, const Sampler& sampler_)
+      : name(name_), images{&image}, sampler(&sampler_) {}
+  Binding(ImageName name_, std::vector<const Image*> images_) : name(name_), images(std::move(images_)) {}
+  ImageName name;
+  std::vector<const Image*> images;
   const Sampler* sampler = nullptr;
 };
+// In any order; each of a program's, once.
 using Bindings = std::initializer_list<Binding>;
 
 struct NoConstants {};

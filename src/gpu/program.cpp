@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
+#include <deque>
+#include <iterator>
 #include <stdexcept>
 
 namespace nephroid::gpu {
@@ -38,19 +39,23 @@ class ShaderModule {
   VkShaderModule handle_ = VK_NULL_HANDLE;
 };
 
+// The constants given that a shader has, by the numbers it gives them.
 class Specialization {
  public:
-  explicit Specialization(const std::vector<SpecializationConstant>& constants) {
-    for (uint32_t i = 0; i < constants.size(); ++i)
-      entries_.push_back({constants[i].id,
-                          static_cast<uint32_t>(i * sizeof(SpecializationConstant) +
-                                                offsetof(SpecializationConstant, value)),
-                          sizeof(uint32_t)});
+  Specialization(const Reflection& shader, const std::vector<SpecializationConstant>& constants) {
+    for (std::size_t i = 0; i < constants.size(); ++i) {
+      const auto found = std::ranges::find(shader.constants, constants[i].name, &ReflectedConstant::name);
+      if (found == shader.constants.end()) continue;
+      const std::size_t offset = i * sizeof(SpecializationConstant) + offsetof(SpecializationConstant, value);
+      entries_.push_back({found->id, static_cast<uint32_t>(offset), sizeof(uint32_t)});
+    }
     info_.mapEntryCount = static_cast<uint32_t>(entries_.size());
     info_.pMapEntries = entries_.data();
     info_.dataSize = constants.size() * sizeof(SpecializationConstant);
     info_.pData = constants.data();
   }
+  Specialization(const Specialization&) = delete;
+  Specialization& operator=(const Specialization&) = delete;
   const VkSpecializationInfo& info() const { return info_; }
 
  private:
@@ -58,14 +63,12 @@ class Specialization {
   VkSpecializationInfo info_{};
 };
 
-// What both stages are fed: the larger push constants, and every binding once.
-Reflection joined(Reflection a, const Reflection& b) {
-  a.pushConstantBytes = std::max(a.pushConstantBytes, b.pushConstantBytes);
-  for (const ReflectedBinding& binding : b.bindings)
-    if (std::ranges::find(a.bindings, binding.binding, &ReflectedBinding::binding) == a.bindings.end())
-      a.bindings.push_back(binding);
-  std::ranges::sort(a.bindings, {}, &ReflectedBinding::binding);
-  return a;
+void expectKnown(const Program& program, const std::vector<SpecializationConstant>& constants) {
+  for (const SpecializationConstant& constant : constants)
+    if (std::ranges::find(program.reflection().constants, constant.name, &ReflectedConstant::name) ==
+        program.reflection().constants.end())
+      throw std::logic_error("program " + program.name() + " has no constant \"" +
+                             std::string(constant.name) + "\"");
 }
 
 VkPipelineColorBlendAttachmentState blendState(Blend blend) {
@@ -149,6 +152,15 @@ VkPipeline createRasterPipeline(Device& device, const Program& program, const Ra
 
 }  // namespace
 
+// A shader as a program uses it: with the binding numbers of that program.
+struct ShaderStage {
+  ShaderStage(VkShaderStageFlagBits kind_, const std::string& name, std::span<const uint32_t> shader)
+      : kind(kind_), spirv(shader.begin(), shader.end()), reflection(reflect(name, shader)) {}
+  VkShaderStageFlagBits kind;
+  std::vector<uint32_t> spirv;
+  Reflection reflection;
+};
+
 Program::~Program() {
   if (!device_) return;
   vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
@@ -167,12 +179,33 @@ void Program::swap(Program& other) noexcept {
   std::swap(name_, other.name_);
 }
 
+// Numbers the images of a stage: one that an earlier stage has too is the same image.
+void Program::add(ShaderStage& stage) {
+  stages_ |= stage.kind;
+  reflection_.pushConstantBytes = std::max(reflection_.pushConstantBytes, stage.reflection.pushConstantBytes);
+  reflection_.localSize = stage.reflection.localSize;
+  std::ranges::copy(stage.reflection.constants, std::back_inserter(reflection_.constants));
+  std::vector<ReflectedBinding>& all = reflection_.bindings;
+  for (const ReflectedBinding& binding : stage.reflection.bindings) {
+    const auto known = std::ranges::find(all, binding.hash, &ReflectedBinding::hash);
+    const auto number = static_cast<uint32_t>(known - all.begin());
+    if (known == all.end())
+      all.push_back(binding);
+    else if (known->type != binding.type || known->isLayered != binding.isLayered ||
+             known->count != binding.count)
+      throw std::logic_error("program " + name_ + ": its shaders declare \"" + binding.name +
+                             "\" as images of different kinds");
+    stage.spirv[binding.numberAt] = number;
+  }
+}
+
 void Program::createLayout() {
   if (reflection_.pushConstantBytes > device_->limits().maxPushConstantsSize)
     throw std::logic_error("program " + name_ + " has more push constants than the device takes");
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const ReflectedBinding& binding : reflection_.bindings)
-    bindings.push_back({binding.binding, binding.type, 1, stages_, nullptr});
+    bindings.push_back(
+        {static_cast<uint32_t>(bindings.size()), binding.type, binding.count, stages_, nullptr});
   auto set = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
   set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
   set.bindingCount = static_cast<uint32_t>(bindings.size());
@@ -194,11 +227,12 @@ Program createComputeProgram(Device& device, const std::string& name, std::span<
   Program program;
   program.device_ = &device;
   program.name_ = name;
-  program.stages_ = VK_SHADER_STAGE_COMPUTE_BIT;
-  program.reflection_ = reflect(name, spirv);
+  ShaderStage shader(VK_SHADER_STAGE_COMPUTE_BIT, name, spirv);
+  program.add(shader);
+  expectKnown(program, constants);
   program.createLayout();
-  const ShaderModule module(device.handle(), spirv, name);
-  const Specialization specialization(constants);
+  const ShaderModule module(device.handle(), shader.spirv, name);
+  const Specialization specialization(shader.reflection, constants);
   auto info = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
   info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialization.info());
   info.layout = program.layout_;
@@ -215,19 +249,18 @@ Program createRasterProgram(Device& device, const std::string& name, std::span<c
   program.device_ = &device;
   program.name_ = name;
   program.bindPoint_ = VK_PIPELINE_BIND_POINT_GRAPHICS;
-  program.stages_ = VK_SHADER_STAGE_VERTEX_BIT;
-  program.reflection_ = reflect(name, vertex);
-  const Specialization specialization(constants);
-  const ShaderModule vertexModule(device.handle(), vertex, name);
-  std::vector stages{vertexModule.stage(VK_SHADER_STAGE_VERTEX_BIT, specialization.info())};
-  std::optional<ShaderModule> fragmentModule;
-  if (!fragment.empty()) {
-    program.stages_ |= VK_SHADER_STAGE_FRAGMENT_BIT;
-    program.reflection_ = joined(program.reflection_, reflect(name, fragment));
-    fragmentModule.emplace(device.handle(), fragment, name);
-    stages.push_back(fragmentModule->stage(VK_SHADER_STAGE_FRAGMENT_BIT, specialization.info()));
-  }
+  std::vector<ShaderStage> shaders{{VK_SHADER_STAGE_VERTEX_BIT, name, vertex}};
+  if (!fragment.empty()) shaders.emplace_back(VK_SHADER_STAGE_FRAGMENT_BIT, name, fragment);
+  for (ShaderStage& shader : shaders) program.add(shader);
+  expectKnown(program, constants);
   program.createLayout();
+  std::deque<ShaderModule> modules;
+  std::deque<Specialization> specializations;
+  std::vector<VkPipelineShaderStageCreateInfo> stages;
+  for (const ShaderStage& shader : shaders)
+    stages.push_back(
+        modules.emplace_back(device.handle(), shader.spirv, name)
+            .stage(shader.kind, specializations.emplace_back(shader.reflection, constants).info()));
   program.pipeline_ = createRasterPipeline(device, program, state, stages);
   device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(program.pipeline_), name);
   return program;

@@ -1,10 +1,11 @@
-// Compute and raster pipelines that know by reflection how they are fed: images by push descriptors of set 0,
-// in the order of their binding numbers; all else by push constants (at most 128 bytes), which hold the
-// addresses of buffers.
+// Compute and raster pipelines that know by reflection how they are fed: images by push descriptors, under
+// the names that shaders give them (a name is one image in all stages of a program; binding numbers are
+// chosen here); all else by push constants (at most 128 bytes), which hold the addresses of buffers.
 #pragma once
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,10 +14,11 @@
 
 namespace nephroid::gpu {
 
-// The `constant_id = id` constant of a shader, as its 32 bits.
+// A specialization constant, by the name it has in one or more of a program's shaders. Those that are not
+// given keep the shader's value.
 struct SpecializationConstant {
-  uint32_t id = 0;
-  uint32_t value = 0;
+  std::string_view name;
+  uint32_t value = 0;  // its 32 bits
 };
 
 // over: by its alpha over what is there.
@@ -39,6 +41,8 @@ struct RasterState {
   float depthBiasSlope = 0;
 };
 
+struct ShaderStage;
+
 class Program {
  public:
   Program() = default;
@@ -53,6 +57,7 @@ class Program {
   VkPipelineLayout layout() const { return layout_; }
   VkPipelineBindPoint bindPoint() const { return bindPoint_; }
   VkShaderStageFlags stages() const { return stages_; }
+  // Of all stages; a binding's place in the list is its number.
   const Reflection& reflection() const { return reflection_; }
   const std::string& name() const { return name_; }
   explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
@@ -63,6 +68,7 @@ class Program {
   friend Program createRasterProgram(Device&, const std::string&, std::span<const uint32_t>,
                                      std::span<const uint32_t>, const RasterState&,
                                      const std::vector<SpecializationConstant>&);
+  void add(ShaderStage& stage);
   void createLayout();
   void swap(Program& other) noexcept;
 
@@ -76,6 +82,8 @@ class Program {
   std::string name_;
 };
 
+// Programs. Both throw std::logic_error for a constant that no shader has, and for an image that two shaders
+// declare differently.
 Program createComputeProgram(Device& device, const std::string& name, std::span<const uint32_t> spirv,
                              const std::vector<SpecializationConstant>& constants = {});
 

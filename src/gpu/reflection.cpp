@@ -41,6 +41,24 @@ uint32_t pushConstantBytes(spvc_compiler compiler, spvc_resources resources) {
   return static_cast<uint32_t>(bytes);
 }
 
+// The images of an array; 1 where it is none.
+uint32_t arraySize(spvc_type type) {
+  uint32_t count = 1;
+  for (unsigned dimension = 0; dimension < spvc_type_get_num_array_dimensions(type); ++dimension)
+    count *= spvc_type_get_array_dimension(type, dimension);
+  return count;
+}
+
+std::vector<ReflectedConstant> constantsOf(spvc_compiler compiler) {
+  const spvc_specialization_constant* list = nullptr;
+  size_t count = 0;
+  spvc_compiler_get_specialization_constants(compiler, &list, &count);
+  std::vector<ReflectedConstant> constants;
+  for (const spvc_specialization_constant& constant : std::span(list, count))
+    constants.push_back({spvc_compiler_get_name(compiler, constant.id), constant.constant_id});
+  return constants;
+}
+
 }  // namespace
 
 Reflection reflect(const std::string& name, std::span<const uint32_t> spirv) {
@@ -70,12 +88,16 @@ Reflection reflect(const std::string& name, std::span<const uint32_t> spirv) {
     for (const auto& resource : listOf(resources, kind.resource)) {
       if (spvc_compiler_get_decoration(compiler, resource.id, SpvDecorationDescriptorSet) != 0)
         throw fail("descriptor sets other than 0 are not fed");
+      // The compiler numbers what the shader uses, and nothing else.
+      unsigned numberAt = 0;
+      if (!spvc_compiler_get_binary_offset_for_decoration(compiler, resource.id, SpvDecorationBinding,
+                                                          &numberAt))
+        continue;
       const spvc_type type = spvc_compiler_get_type_handle(compiler, resource.type_id);
-      reflection.bindings.push_back(
-          {spvc_compiler_get_decoration(compiler, resource.id, SpvDecorationBinding), kind.descriptor,
-           spvc_type_get_image_arrayed(type) != 0, resource.name});
+      reflection.bindings.push_back({resource.name, hashOfName(resource.name), kind.descriptor,
+                                     spvc_type_get_image_arrayed(type) != 0, arraySize(type), numberAt});
     }
-  std::ranges::sort(reflection.bindings, {}, &ReflectedBinding::binding);
+  reflection.constants = constantsOf(compiler);
   return reflection;
 }
 

@@ -5,23 +5,41 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gpu/vulkan.h"
 
 namespace nephroid::gpu {
 
+// FNV-1a of 64 bits.
+constexpr uint64_t hashOfName(std::string_view name) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+// An image, or an array of images, that a shader reads or writes.
 struct ReflectedBinding {
-  uint32_t binding = 0;
-  VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-  bool isArrayed = false;  // an image with layers
   std::string name;
+  uint64_t hash = 0;  // of the name
+  VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+  bool isLayered = false;  // each image has layers
+  uint32_t count = 1;      // of images
+  uint32_t numberAt = 0;   // where the module holds the binding number, in words from its beginning
+};
+
+// A specialization constant.
+struct ReflectedConstant {
+  std::string name;
+  uint32_t id = 0;  // its `constant_id`
 };
 
 struct Reflection {
   uint32_t pushConstantBytes = 0;
   std::array<uint32_t, 3> localSize{1, 1, 1};  // threads of a compute group
-  std::vector<ReflectedBinding> bindings;      // of set 0, ascending
+  std::vector<ReflectedBinding> bindings;
+  std::vector<ReflectedConstant> constants;
 };
 
 // Throws std::logic_error on a module this folder cannot feed (other sets, descriptors that are not images).

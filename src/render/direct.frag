@@ -5,9 +5,9 @@
 
 #include "render/air/box.glsl.h"
 
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
-layout(set = 0, binding = 5) uniform sampler2DArray boxDepths;  // kHasBox
+layout(rgba32f) uniform readonly image2D receiverPosition;
+layout(rgba32f) uniform readonly image2D receiverNormal;
+uniform sampler2DArray boxDepths;  // kHasBox
 layout(location = 0) flat in Air air;                            // kHasAir
 layout(location = 11) flat in AirBox box;                        // kHasBox
 layout(location = 0) out vec4 directLux;  // added to that of other lights

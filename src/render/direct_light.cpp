@@ -5,9 +5,9 @@
 
 #include "gpu/transfer.h"
 #include "lights/light_intensity.h"
-#include "shaders/air_vert.h"
-#include "shaders/direct_frag.h"
-#include "shaders/shadow_vert.h"
+#include "shaders/render/air/air_vert.h"
+#include "shaders/render/direct_frag.h"
+#include "shaders/render/shadow_vert.h"
 
 namespace nephroid {
 namespace {
@@ -17,7 +17,7 @@ gpu::Program shadowProgram(gpu::Device& device, const char* name, VkCullModeFlag
   state.depthFormat = VK_FORMAT_D32_SFLOAT;
   state.cull = cull;
   state.frontFace = VK_FRONT_FACE_CLOCKWISE;  // maps are seen with y up
-  return gpu::createRasterProgram(device, name, shaders::shadow_vert, {}, state);
+  return gpu::createRasterProgram(device, name, shaders::render_shadow_vert, {}, state);
 }
 
 mat4 toWorld(const Placement& placement) {
@@ -74,7 +74,9 @@ DirectLight::DrawnLight DirectLight::drawn(const Scene& scene, ShadowedLight sha
 }
 
 std::vector<gpu::SpecializationConstant> DirectLight::ProgramKey::specialization() const {
-  return {{0, type}, {1, mapCount}, {2, isLine}, {3, hasGobo}, {4, profileType}, {5, hasAir}, {8, hasAirBox}};
+  return {{"kEmitterType", type}, {"kMapCount", mapCount},       {"kIsLine", isLine},
+          {"kHasGobo", hasGobo},  {"kProfileType", profileType}, {"kHasAir", hasAir},
+          {"kHasBox", hasAirBox}};
 }
 
 DirectConstants DirectLight::constants(uint32_t index) const {
@@ -129,7 +131,7 @@ void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& exte
     key.hasAirBox = air.hasBox;
     if (!programs_.contains(key))
       programs_[key] = gpu::createRasterProgram(
-          device_, "direct light", shaders::air_vert, shaders::direct_frag,
+          device_, "direct light", shaders::render_air_air_vert, shaders::render_direct_frag,
           {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}}, key.specialization());
   }
 }
@@ -153,13 +155,14 @@ void DirectLight::record(gpu::CommandList& commands, const GpuScene& gpuScene, c
   commands.render({.colors = {{&lux, 0, vec4(0)}}, .region = points.region}, [&] {
     for (uint32_t i = 0; i < lightCount(); ++i) {
       const auto [map, gobo, profile] = bindings(i, gpuScene);
-      commands.draw(programs_.at(key(i)), 3, 1, constants(i),
-                    {*points.position,
-                     *points.normal,
-                     map,
-                     gobo,
-                     profile,
-                     {air_.depths ? *air_.depths : maps_[i], air_.depths ? goboSampler_ : sampler_}});
+      commands.draw(
+          programs_.at(key(i)), 3, 1, constants(i),
+          {{"receiverPosition", *points.position},
+           {"receiverNormal", *points.normal},
+           map,
+           gobo,
+           profile,
+           {"boxDepths", air_.depths ? *air_.depths : maps_[i], air_.depths ? goboSampler_ : sampler_}});
     }
   });
 }
@@ -174,8 +177,9 @@ std::vector<const gpu::Image*> DirectLight::shadowMaps() const {
 std::array<gpu::Binding, 3> DirectLight::bindings(uint32_t light, const GpuScene& gpuScene) const {
   const DrawnLight& drawn = lights_[light];
   const std::size_t profile = std::min<std::size_t>(drawn.profile, profiles_.size() - 1);
-  return {gpu::Binding(maps_[light], sampler_), gpu::Binding(gpuScene.texture(drawn.gobo), goboSampler_),
-          gpu::Binding(profiles_[profile], sampler_)};
+  return {gpu::Binding("shadowMaps", maps_[light], sampler_),
+          gpu::Binding("gobo", gpuScene.texture(drawn.gobo), goboSampler_),
+          gpu::Binding("profile", profiles_[profile], sampler_)};
 }
 
 }  // namespace nephroid

@@ -135,10 +135,11 @@ void Renderer::illuminate(gpu::CommandList& commands) {
     commands.clear(images_.wayStart, vec4(0));
     commands.clear(images_.scattered, vec4(0));
   }
-  light(commands, images_.seen, std::nullopt);
-  if (sight_.reflects()) light(commands, images_.reflected, sight_.region());
+  light(commands, images_.seen[kSeen], std::nullopt);
+  if (sight_.reflects()) light(commands, images_.seen[kSeenReflected], sight_.region());
   if (sight_.disperses())
-    for (const SeenImages& seen : images_.dispersed) light(commands, seen, sight_.region());
+    for (const uint32_t channel : {kSeenGreen, kSeenBlue})
+      light(commands, images_.seen[channel], sight_.region());
   for (const WaterInSight& water : sight_.waters()) {
     commands.pass("ways in water", [&] {
       sight_.recordWays(commands, water, images_, images_.wayStart, images_.wayDirection);
@@ -175,10 +176,12 @@ void Renderer::place(const Scene& scene) {
 
 void Renderer::ensureImages() {
   const uvec2 size = settings_.size;
-  if (sight_.reflects() && !images_.reflected.position)
-    images_.reflected = createSeenImages(device_, size.x, size.y);
-  if (sight_.disperses() && !images_.dispersed[0].position)
-    for (SeenImages& seen : images_.dispersed) seen = createSeenImages(device_, size.x, size.y);
+  const auto ensure = [&](uint32_t which) {
+    if (!images_.seen[which].position) images_.seen[which] = createSeenImages(device_, size.x, size.y);
+  };
+  if (sight_.reflects()) ensure(kSeenReflected);
+  if (sight_.disperses())
+    for (const uint32_t channel : {kSeenGreen, kSeenBlue}) ensure(channel);
   if (hasTurbidWater_ && !images_.scattered)
     for (gpu::Image* image : {&images_.wayStart, &images_.wayDirection, &images_.scattered})
       *image = gpu::createImage(device_, "light in water", {.width = size.x, .height = size.y});
@@ -186,7 +189,7 @@ void Renderer::ensureImages() {
 
 void Renderer::drawReceivers(gpu::CommandList& commands) {
   const vec4 nothing(0);
-  const SeenImages& seen = images_.seen;
+  const SeenImages& seen = images_.seen[kSeen];
   commands.render(
       {.colors = {{&seen.position, 0, nothing}, {&seen.normal, 0, nothing}, {&seen.albedo, 0, nothing}},
        .depth = gpu::DepthAttachment{&images_.depth, 0, 0.0f}},
@@ -197,7 +200,7 @@ void Renderer::drawReceivers(gpu::CommandList& commands) {
           if (surface.isReceiver)
             commands.drawIndexed(surface.isTextured ? programs_.texturedReceiver : programs_.receiver,
                                  gpuScene_.indices(), draw.range, 1, surface.constants,
-                                 {{*draw.colorTexture, gpuScene_.textureSampler()}});
+                                 {{"colorTexture", *draw.colorTexture, gpuScene_.textureSampler()}});
         }
       });
 }
@@ -215,10 +218,13 @@ void Renderer::light(gpu::CommandList& commands, const SeenImages& seen,
 // Everywhere as if there were no casters, then again where there may be.
 void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
                          const std::vector<const gpu::Image*>& targets) {
-  const SeenImages& seen = images_.seen;
-  const SeenImages& reflected = sight_.reflects() ? images_.reflected : seen;
-  const SeenImages& green = sight_.disperses() ? images_.dispersed[0] : seen;
-  const SeenImages& blue = sight_.disperses() ? images_.dispersed[1] : seen;
+  const SeenImages& seen = images_.seen[kSeen];
+  // For those that are not there, and not read, the first stand in.
+  const auto ofEach = [&](gpu::Image SeenImages::*image) {
+    std::vector<const gpu::Image*> all;
+    for (const SeenImages& one : images_.seen) all.push_back(one.position ? &(one.*image) : &(seen.*image));
+    return all;
+  };
   const bool isEyeInWater = !sight_.waters().empty() && sight_.waters().back().constants.kind == kWayFromEye;
   const vec3 extinctionAtEye = isEyeInWater ? sight_.waters().back().extinction : vec3(0);
   const auto draw = [&](const CasterTraits& traits, const gpu::Region& region) {
@@ -229,12 +235,14 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
       commands.draw(programs.at(traits), 3, 1,
                     CompositeConstants{gpuScene_.materials(), environment_.ambient, environment_.background,
                                        exposure_, extinctionAtEye},
-                    {seen.albedo, seen.directLux, seen.causticsLux, seen.transmittance, reflected.albedo,
-                     reflected.normal, reflected.directLux, reflected.causticsLux, green.albedo,
-                     green.directLux, green.causticsLux, green.transmittance, blue.albedo, blue.directLux,
-                     blue.causticsLux, blue.transmittance, shafts_ ? shafts_.image() : seen.albedo,
-                     hasTurbidWater_ ? images_.wayStart : seen.albedo,
-                     hasTurbidWater_ ? images_.scattered : seen.albedo});
+                    {{"normal", ofEach(&SeenImages::normal)},
+                     {"albedo", ofEach(&SeenImages::albedo)},
+                     {"transmittance", ofEach(&SeenImages::transmittance)},
+                     {"directLux", ofEach(&SeenImages::directLux)},
+                     {"causticsLux", ofEach(&SeenImages::causticsLux)},
+                     {"shafts", shafts_ ? shafts_.image() : seen.albedo},
+                     {"wayStart", hasTurbidWater_ ? images_.wayStart : seen.albedo},
+                     {"scattered", hasTurbidWater_ ? images_.scattered : seen.albedo}});
     });
   };
   draw({}, {{0, 0}, settings_.size});
@@ -254,7 +262,7 @@ ByteImage Renderer::picture() const {
 
 std::vector<PassOutput> Renderer::outputs() const {
   const float exposure = exposure_ / glm::pi<float>();  // of lux, as white paper shows them
-  const SeenImages& seen = images_.seen;
+  const SeenImages& seen = images_.seen[kSeen];
   std::vector<PassOutput> all;
   for (const gpu::Image* map : directLight_.shadowMaps())
     all.push_back({"shadow maps", "depths from a light", map, kShowDepth});
@@ -267,8 +275,9 @@ std::vector<PassOutput> Renderer::outputs() const {
     all.insert(all.end(), {{"casters", "normals", &images_.casterNormal, kShowDirection},
                            {"seen through casters", "transmittance", &seen.transmittance, kShowFactor}});
   if (sight_.reflects())
-    all.insert(all.end(), {{"reflected by casters", "albedo", &images_.reflected.albedo, kShowFactor},
-                           {"reflected by casters", "normals", &images_.reflected.normal, kShowDirection}});
+    all.insert(all.end(),
+               {{"reflected by casters", "albedo", &images_.seen[kSeenReflected].albedo, kShowFactor},
+                {"reflected by casters", "normals", &images_.seen[kSeenReflected].normal, kShowDirection}});
   all.insert(all.end(), {{"direct light", "lux", &seen.directLux, kShowLight, exposure},
                          {"caustics", "lux", &seen.causticsLux, kShowLight, exposure}});
   if (hasTurbidWater_)
@@ -315,7 +324,7 @@ Image Renderer::layers() {
   writeChannels(layers, "caustics.", "RGB", gpu::download<vec4>(device_, images_.causticsLuminance));
   writeChannels(layers, "shafts.", "RGB", shaftsLuminance());
 
-  auto normals = gpu::download<vec4>(device_, images_.seen.normal);
+  auto normals = gpu::download<vec4>(device_, images_.seen[kSeen].normal);
   const auto casterNormals = gpu::download<vec4>(device_, images_.casterNormal);
   const gpu::Region& region = sight_.region();
   const uvec2 first(region.corner);

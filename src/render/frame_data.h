@@ -48,6 +48,13 @@ struct DirectConstants {
   BUFFER_ADDRESS(AirLights) air;  // the first; not there where there is no air
 };
 
+// What pixels are lit for: the images of each are SeenImages.
+SHARED_CONSTANT uint kSeen = 0u;       // the receiver, in all channels, or in red where a caster disperses
+SHARED_CONSTANT uint kSeenGreen = 1u;  // the receiver in green, where a caster disperses
+SHARED_CONSTANT uint kSeenBlue = 2u;   // the same in blue
+SHARED_CONSTANT uint kSeenReflected = 3u;  // the receiver that glass reflects
+SHARED_CONSTANT uint kSeenCount = 4u;
+
 struct CompositeConstants {
   BUFFER_ADDRESS(SceneMaterials) materials;
   vec3 ambient;     // lux

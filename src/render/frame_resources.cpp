@@ -1,10 +1,10 @@
 #include "render/frame_resources.h"
 
-#include "shaders/layers_frag.h"
-#include "shaders/picture_frag.h"
-#include "shaders/receiver_frag.h"
-#include "shaders/surface_vert.h"
-#include "shaders/whole_picture_vert.h"
+#include "shaders/render/layers_frag.h"
+#include "shaders/render/picture_frag.h"
+#include "shaders/render/receiver_frag.h"
+#include "shaders/render/surface_vert.h"
+#include "shaders/techniques/whole_picture_vert.h"
 
 namespace nephroid {
 namespace {
@@ -29,7 +29,7 @@ FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t heig
   };
   FrameImages images;
   images.depth = image("depth", kDepth);
-  images.seen = createSeenImages(device, width, height);
+  images.seen[kSeen] = createSeenImages(device, width, height);
   images.casterNormal = image("caster normal");
   images.luminance = image("luminance");
   images.directLuminance = image("direct luminance");
@@ -45,21 +45,24 @@ FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& lu
   receiver.depthCompare = VK_COMPARE_OP_GREATER;
 
   FramePrograms programs;
-  programs.receiver = gpu::createRasterProgram(device, "receiver", shaders::surface_vert,
-                                               shaders::receiver_frag, receiver, {{0, VK_FALSE}});
-  programs.texturedReceiver = gpu::createRasterProgram(device, "textured receiver", shaders::surface_vert,
-                                                       shaders::receiver_frag, receiver, {{0, VK_TRUE}});
+  programs.receiver =
+      gpu::createRasterProgram(device, "receiver", shaders::render_surface_vert,
+                               shaders::render_receiver_frag, receiver, {{"kHasTexture", VK_FALSE}});
+  programs.texturedReceiver =
+      gpu::createRasterProgram(device, "textured receiver", shaders::render_surface_vert,
+                               shaders::render_receiver_frag, receiver, {{"kHasTexture", VK_TRUE}});
   for (const CasterTraits traits : {CasterTraits{false, false, false}, CasterTraits{true, false, false},
                                     CasterTraits{true, true, false}, CasterTraits{true, true, true}}) {
     const std::vector<gpu::SpecializationConstant> choices{
-        {0, luminance.hasEmission}, {1, traits.areSeen},   {2, traits.reflect},
-        {3, traits.disperse},       {4, luminance.hasAir}, {5, luminance.hasTurbidWater}};
+        {"kHasEmission", luminance.hasEmission}, {"kSeesCasters", traits.areSeen},
+        {"kReflects", traits.reflect},           {"kDisperses", traits.disperse},
+        {"kHasAir", luminance.hasAir},           {"kHasTurbidWater", luminance.hasTurbidWater}};
     programs.picture[traits] =
-        gpu::createRasterProgram(device, "picture", shaders::whole_picture_vert, shaders::picture_frag,
-                                 {.colors = {{kBytes}}}, choices);
-    programs.layers[traits] =
-        gpu::createRasterProgram(device, "layers", shaders::whole_picture_vert, shaders::layers_frag,
-                                 {.colors = {{kFrameFormat}, {kFrameFormat}, {kFrameFormat}}}, choices);
+        gpu::createRasterProgram(device, "picture", shaders::techniques_whole_picture_vert,
+                                 shaders::render_picture_frag, {.colors = {{kBytes}}}, choices);
+    programs.layers[traits] = gpu::createRasterProgram(
+        device, "layers", shaders::techniques_whole_picture_vert, shaders::render_layers_frag,
+        {.colors = {{kFrameFormat}, {kFrameFormat}, {kFrameFormat}}}, choices);
   }
   return programs;
 }

@@ -7,6 +7,7 @@
 
 #include "gpu/program.h"
 #include "gpu/resources.h"
+#include "render/frame_data.h"
 
 namespace nephroid {
 
@@ -22,10 +23,9 @@ struct SeenImages {
 
 // Of the frame's size; rgba32f unless it says otherwise.
 struct FrameImages {
-  gpu::Image depth;                     // d32, reversed: 1 near, 0 infinitely far
-  SeenImages seen;                      // in all channels, or in red alone where a caster disperses
-  std::array<SeenImages, 2> dispersed;  // in green and blue; made when they are first needed
-  SeenImages reflected;                 // by glass; made when it is first needed
+  gpu::Image depth;  // d32, reversed: 1 near, 0 infinitely far
+  // By kSeen...; all but kSeen are made when they are first needed.
+  std::array<SeenImages, kSeenCount> seen;
   // On the side of the viewer, a = 1 where a caster is in front of the receiver, -1 where that is its inside;
   // kept only where casters may be.
   gpu::Image casterNormal;

@@ -13,11 +13,11 @@ layout(constant_id = 5) const bool kHasAir = false;
 layout(push_constant, scalar) uniform Constants {
   DirectConstants constants;
 };
-layout(set = 0, binding = 2) uniform sampler2DArray shadowMaps;
-layout(set = 0, binding = 3) uniform sampler2D gobo;
+uniform sampler2DArray shadowMaps;
+uniform sampler2D gobo;
 // Row 0 and column 0: vertical and horizontal angles (degrees). The rest: parts of the peak, a row for each
 // horizontal angle.
-layout(set = 0, binding = 4) uniform sampler2D profile;
+uniform sampler2D profile;
 
 // One of the light's points.
 Emitter emitterAt(vec3 origin) {

@@ -14,27 +14,17 @@ layout(constant_id = 5) const bool kHasTurbidWater = false;
 layout(push_constant, scalar) uniform Constants {
   CompositeConstants constants;
 };
-layout(set = 0, binding = 0) uniform texture2D receiverAlbedo;
-layout(set = 0, binding = 1) uniform texture2D directLux;
-layout(set = 0, binding = 2) uniform texture2D causticsLux;
-layout(set = 0, binding = 3) uniform texture2D throughCaster;
-layout(set = 0, binding = 4) uniform texture2D reflectedAlbedo;
-layout(set = 0, binding = 5) uniform texture2D reflectedNormal;
-layout(set = 0, binding = 6) uniform texture2D reflectedDirectLux;
-layout(set = 0, binding = 7) uniform texture2D reflectedCausticsLux;
-layout(set = 0, binding = 8) uniform texture2D greenAlbedo;
-layout(set = 0, binding = 9) uniform texture2D greenDirectLux;
-layout(set = 0, binding = 10) uniform texture2D greenCausticsLux;
-layout(set = 0, binding = 11) uniform texture2D greenThroughCaster;
-layout(set = 0, binding = 12) uniform texture2D blueAlbedo;
-layout(set = 0, binding = 13) uniform texture2D blueDirectLux;
-layout(set = 0, binding = 14) uniform texture2D blueCausticsLux;
-layout(set = 0, binding = 15) uniform texture2D blueThroughCaster;
+// Of all SeenImages, by kSeen...
+uniform texture2D normal[kSeenCount];
+uniform texture2D albedo[kSeenCount];
+uniform texture2D transmittance[kSeenCount];
+uniform texture2D directLux[kSeenCount];
+uniform texture2D causticsLux[kSeenCount];
 // With kHasAir: luminance of the air, and a the part of what is behind it that it lets through.
-layout(set = 0, binding = 16) uniform texture2D shafts;
+uniform texture2D shafts;
 // With kHasTurbidWater: ways of sight in water, and what that scatters along them (nit).
-layout(set = 0, binding = 17) uniform texture2D wayStart;
-layout(set = 0, binding = 18) uniform texture2D scattered;
+uniform texture2D wayStart;
+uniform texture2D scattered;
 
 const float kInversePi = 0.318309886;
 
@@ -52,6 +42,11 @@ Luminance luminanceOf(vec4 albedo, vec3 directLight, vec3 causticsLight) {
   return Luminance(reflectance * directLight, reflectance * causticsLight, rest);
 }
 
+// A macro, since images are chosen by constants alone.
+#define LUMINANCE_OF(which, pixel)                                                                  \
+  luminanceOf(texelFetch(albedo[which], pixel, 0), texelFetch(directLux[which], pixel, 0).rgb, \
+              texelFetch(causticsLux[which], pixel, 0).rgb)
+
 void add(inout Luminance sum, vec3 factor, Luminance other) {
   sum.direct += factor * other.direct;
   sum.caustics += factor * other.caustics;
@@ -68,28 +63,22 @@ Luminance dimmed(vec3 factor, Luminance seen) {
 }
 
 Luminance surfaceAt(ivec2 pixel) {
-  Luminance seen = luminanceOf(texelFetch(receiverAlbedo, pixel, 0), texelFetch(directLux, pixel, 0).rgb,
-                               texelFetch(causticsLux, pixel, 0).rgb);
+  Luminance seen = LUMINANCE_OF(kSeen, pixel);
   if (!kSeesCasters) return dimmed(leftByWater(pixel), seen);
-  const vec4 through = texelFetch(throughCaster, pixel, 0);
+  const vec4 through = texelFetch(transmittance[kSeen], pixel, 0);
   const uint marks = uint(through.a);
   if (marks == 0) return dimmed(leftByWater(pixel), seen);
   Luminance sum = Luminance(vec3(0), vec3(0), vec3(0));
   if (kDisperses && (marks & kSightDisperses) != 0) {
     add(sum, vec3(through.r, 0, 0), seen);
-    add(sum, vec3(0, texelFetch(greenThroughCaster, pixel, 0).g, 0),
-        luminanceOf(texelFetch(greenAlbedo, pixel, 0), texelFetch(greenDirectLux, pixel, 0).rgb,
-                    texelFetch(greenCausticsLux, pixel, 0).rgb));
-    add(sum, vec3(0, 0, texelFetch(blueThroughCaster, pixel, 0).b),
-        luminanceOf(texelFetch(blueAlbedo, pixel, 0), texelFetch(blueDirectLux, pixel, 0).rgb,
-                    texelFetch(blueCausticsLux, pixel, 0).rgb));
+    add(sum, vec3(0, texelFetch(transmittance[kSeenGreen], pixel, 0).g, 0), LUMINANCE_OF(kSeenGreen, pixel));
+    add(sum, vec3(0, 0, texelFetch(transmittance[kSeenBlue], pixel, 0).b), LUMINANCE_OF(kSeenBlue, pixel));
   } else {
     add(sum, through.rgb, seen);
   }
   if (kReflects)
-    add(sum, texelFetch(reflectedNormal, pixel, 0).a * leftByWater(pixel),
-        luminanceOf(texelFetch(reflectedAlbedo, pixel, 0), texelFetch(reflectedDirectLux, pixel, 0).rgb,
-                    texelFetch(reflectedCausticsLux, pixel, 0).rgb));
+    add(sum, texelFetch(normal[kSeenReflected], pixel, 0).a * leftByWater(pixel),
+        LUMINANCE_OF(kSeenReflected, pixel));
   return sum;
 }
 

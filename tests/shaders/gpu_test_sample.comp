@@ -1,7 +1,7 @@
 #version 460
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0) uniform sampler2D source;
-layout(set = 0, binding = 1, rgba32f) uniform writeonly image2DArray target;
+uniform sampler2D source;
+layout(rgba32f) uniform writeonly image2DArray target;
 
 void main() {
   const ivec2 size = imageSize(target).xy;

@@ -7,8 +7,8 @@
 
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;
 layout(push_constant, scalar) uniform Constants { AirDepthConstants constants; };
-layout(set = 0, binding = 0) uniform sampler2DArray density;
-layout(set = 0, binding = 1, rgba16f) uniform writeonly image2DArray depths;
+uniform sampler2DArray density;
+layout(rgba16f) uniform writeonly image2DArray depths;
 
 const int kMostSteps = 128;
 

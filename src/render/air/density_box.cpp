@@ -4,7 +4,7 @@
 
 #include "gpu/transfer.h"
 #include "lights/emitters.h"
-#include "shaders/box_depths_comp.h"
+#include "shaders/render/air/box_depths_comp.h"
 
 namespace nephroid {
 namespace {
@@ -37,7 +37,7 @@ const DensityGrid kNoGrid{"none", vec3(0), vec3(1), uvec3(1), {0}};
 DensityBox::DensityBox(gpu::Device& device, const Scene& scene)
     : isThere_(scene.medium && scene.medium->grid),
       sampler_(gpu::createSampler(device)),
-      program_(gpu::createComputeProgram(device, "depths of the air", shaders::box_depths_comp)) {
+      program_(gpu::createComputeProgram(device, "depths of the air", shaders::render_air_box_depths_comp)) {
   const DensityGrid& grid = isThere_ ? *scene.medium->grid : kNoGrid;
   corner_ = grid.corner;
   size_ = grid.size;
@@ -65,7 +65,7 @@ void DensityBox::record(gpu::CommandList& commands) {
   for (std::size_t i = 0; i < sources_.size(); ++i)
     commands.dispatch(program_, uvec3(kAirNodes),
                       AirDepthConstants{sources_[i], static_cast<uint32_t>(i) * kAirNodes, corner_, size_},
-                      {{density_, sampler_}, depths_});
+                      {{"density", density_, sampler_}, {"depths", depths_}});
 }
 
 }  // namespace nephroid

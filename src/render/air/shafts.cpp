@@ -7,9 +7,9 @@
 #include "gpu/transfer.h"
 #include "lights/emitters.h"
 #include "scene/air.h"
-#include "shaders/air_vert.h"
-#include "shaders/shafts_frag.h"
-#include "shaders/transmittance_frag.h"
+#include "shaders/render/air/air_vert.h"
+#include "shaders/render/air/shafts_frag.h"
+#include "shaders/render/air/transmittance_frag.h"
 
 namespace nephroid {
 namespace {
@@ -53,9 +53,9 @@ Shafts::Shafts(gpu::Device& device, const Scene& scene, uvec2 pictureSize, const
   phase_ = phaseCode(scene.medium->phase);
   box_.emplace(device, scene);
   sampler_ = gpu::createSampler(device);
-  transmittance_ =
-      gpu::createRasterProgram(device, "transmittance of the air", shaders::air_vert,
-                               shaders::transmittance_frag, {.colors = {{kFloats}}}, {{8, box_->isThere()}});
+  transmittance_ = gpu::createRasterProgram(device, "transmittance of the air", shaders::render_air_air_vert,
+                                            shaders::render_air_transmittance_frag, {.colors = {{kFloats}}},
+                                            {{"kHasBox", box_->isThere()}});
   lights_ = gpu::createBuffer(device, "air", (emitterRowsOf(scene).size() + 1) * sizeof(AirLight),
                               gpu::MemoryKind::upload);
   resize(pictureSize);
@@ -100,8 +100,9 @@ const gpu::Program& Shafts::program(const ProgramKey& key) {
   gpu::Program& program = programs_[key];
   if (!program) {
     std::vector<gpu::SpecializationConstant> constants = key.specialization();
-    constants.push_back({6, phase_});
-    program = gpu::createRasterProgram(device_, "shafts", shaders::air_vert, shaders::shafts_frag,
+    constants.push_back({"kPhase", phase_});
+    program = gpu::createRasterProgram(device_, "shafts", shaders::render_air_air_vert,
+                                       shaders::render_air_shafts_frag,
                                        {.colors = {{kFloats, gpu::Blend::add}}}, constants);
   }
   return program;
@@ -113,7 +114,12 @@ void Shafts::draw(gpu::CommandList& commands, const DirectLight& directLight, co
   constants.air = address;
   const auto [map, gobo, profile] = directLight.bindings(light, gpuScene);
   commands.draw(program(directLight.key(light)), 3, 1, constants,
-                {depth, map, gobo, profile, {box_->depths(), sampler_}, {box_->density(), sampler_}});
+                {{"depthImage", depth},
+                 map,
+                 gobo,
+                 profile,
+                 {"boxDepths", box_->depths(), sampler_},
+                 {"density", box_->density(), sampler_}});
 }
 
 std::vector<vec4> Shafts::glimpse(const DirectLight& directLight, const GpuScene& gpuScene,
@@ -160,7 +166,8 @@ void Shafts::record(gpu::CommandList& commands, const DirectLight& directLight, 
   commands.render({.colors = {{&image_, 0, vec4(0)}}}, [&] {
     DirectConstants constants{};
     constants.air = lights_.address();
-    commands.draw(transmittance_, 3, 1, constants, {depth, {box_->depths(), sampler_}});
+    commands.draw(transmittance_, 3, 1, constants,
+                  {{"depthImage", depth}, {"boxDepths", box_->depths(), sampler_}});
     for (uint32_t light = 0; light < lightCount_; ++light)
       draw(commands, directLight, gpuScene, depth, light, lights_.address() + light * sizeof(AirLight));
   });

@@ -10,9 +10,9 @@
 #include "render/air/box.glsl.h"
 
 layout(constant_id = 6) const uint kPhase = kPhaseIsotropic;
-layout(set = 0, binding = 0) uniform texture2D depthImage;
-layout(set = 0, binding = 5) uniform sampler2DArray boxDepths;
-layout(set = 0, binding = 6) uniform sampler2DArray density;
+uniform texture2D depthImage;
+uniform sampler2DArray boxDepths;
+uniform sampler2DArray density;
 layout(location = 0) flat in Air air;
 layout(location = 5) flat in AirPlanes planes;
 layout(location = 8) flat in vec3 eye;

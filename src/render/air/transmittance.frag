@@ -6,13 +6,13 @@
 
 #include "render/air/box.glsl.h"
 
-layout(set = 0, binding = 0) uniform texture2D depthImage;
+uniform texture2D depthImage;
 layout(location = 0) flat in Air air;
 layout(location = 8) flat in vec3 eye;
 layout(location = 9) flat in vec3 depths;
 layout(location = 10) noperspective in vec3 ray;
 layout(location = 11) flat in AirBox box;
-layout(set = 0, binding = 1) uniform sampler2DArray boxDepths;
+uniform sampler2DArray boxDepths;
 layout(location = 0) out vec4 shafts;
 
 void main() {

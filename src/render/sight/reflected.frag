@@ -8,12 +8,12 @@
 #include "render/sight/find_receiver.glsl.h"
 
 layout(push_constant, scalar) uniform Constants { SightConstants constants; };
-layout(set = 0, binding = 0) uniform texture2D casterPosition;
-layout(set = 0, binding = 1) uniform texture2D casterNormal;
-layout(set = 0, binding = 2) uniform texture2D casterDirection;
-layout(set = 0, binding = 3) uniform texture2DArray depths;
-layout(set = 0, binding = 4) uniform utexture2DArray normals;
-layout(set = 0, binding = 5) uniform utexture2DArray albedos;
+uniform texture2D casterPosition;
+uniform texture2D casterNormal;
+uniform texture2D casterDirection;
+uniform texture2DArray depths;
+uniform utexture2DArray normals;
+uniform utexture2DArray albedos;
 layout(location = 0) out vec4 receiverPosition;
 layout(location = 1) out vec4 receiverNormal;  // a = reflectance
 layout(location = 2) out vec4 receiverAlbedo;

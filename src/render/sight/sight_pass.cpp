@@ -4,14 +4,14 @@
 #include <optional>
 
 #include "scene/volume.h"
-#include "shaders/caster_frag.h"
-#include "shaders/caster_vert.h"
-#include "shaders/reflected_frag.h"
-#include "shaders/seen_frag.h"
-#include "shaders/slice_frag.h"
-#include "shaders/slice_vert.h"
-#include "shaders/ways_frag.h"
-#include "shaders/whole_picture_vert.h"
+#include "shaders/render/sight/caster_frag.h"
+#include "shaders/render/sight/caster_vert.h"
+#include "shaders/render/sight/reflected_frag.h"
+#include "shaders/render/sight/seen_frag.h"
+#include "shaders/render/sight/slice_frag.h"
+#include "shaders/render/sight/slice_vert.h"
+#include "shaders/render/sight/ways_frag.h"
+#include "shaders/techniques/whole_picture_vert.h"
 
 namespace nephroid {
 namespace {
@@ -29,11 +29,12 @@ gpu::Program casterProgram(gpu::Device& device, const char* name, const gpu::Ras
   state.colors.assign(5, {kSightFormat});
   state.colors.push_back({kReceivers});
   state.depthFormat = kDepth;
-  return gpu::createRasterProgram(device, name, shaders::caster_vert, shaders::caster_frag, state);
+  return gpu::createRasterProgram(device, name, shaders::render_sight_caster_vert,
+                                  shaders::render_sight_caster_frag, state);
 }
 
 gpu::Program lookingProgram(gpu::Device& device, const char* name, std::span<const uint32_t> fragment) {
-  return gpu::createRasterProgram(device, name, shaders::whole_picture_vert, fragment,
+  return gpu::createRasterProgram(device, name, shaders::techniques_whole_picture_vert, fragment,
                                   {.colors = {{kSightFormat}, {kSightFormat}, {kSightFormat}}});
 }
 
@@ -42,8 +43,8 @@ gpu::Program sliceProgram(gpu::Device& device, const char* name, uint32_t hasTex
   state.colors = {{kNormals}, {kAlbedos}};
   state.depthFormat = kDepth;
   state.depthCompare = VK_COMPARE_OP_GREATER;
-  return gpu::createRasterProgram(device, name, shaders::slice_vert, shaders::slice_frag, state,
-                                  {{0, hasTexture}});
+  return gpu::createRasterProgram(device, name, shaders::render_sight_slice_vert,
+                                  shaders::render_sight_slice_frag, state, {{"kHasTexture", hasTexture}});
 }
 
 std::array<vec3, 8> cornersOf(const Object& object, const MeshExtent& extent) {
@@ -65,12 +66,13 @@ SightPass::SightPass(gpu::Device& device, const SightSettings& settings)
       channelProgram_(casterProgram(
           device, "caster in a channel",
           {.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL, .depthWrite = false, .depthBiasConstant = 32})),
-      seenProgram_(lookingProgram(device, "seen by way of a caster", shaders::seen_frag)),
-      reflectedProgram_(lookingProgram(device, "reflected by a caster", shaders::reflected_frag)),
+      seenProgram_(lookingProgram(device, "seen by way of a caster", shaders::render_sight_seen_frag)),
+      reflectedProgram_(
+          lookingProgram(device, "reflected by a caster", shaders::render_sight_reflected_frag)),
       sliceProgram_(sliceProgram(device, "slice", VK_FALSE)),
       texturedSliceProgram_(sliceProgram(device, "textured slice", VK_TRUE)),
-      waysProgram_(gpu::createRasterProgram(device, "ways in water", shaders::whole_picture_vert,
-                                            shaders::ways_frag,
+      waysProgram_(gpu::createRasterProgram(device, "ways in water", shaders::techniques_whole_picture_vert,
+                                            shaders::render_sight_ways_frag,
                                             {.colors = {{kSightFormat}, {kSightFormat}}})) {}
 
 void SightPass::update(SceneTransport& transport, const View& view, uvec2 pictureSize,
@@ -236,14 +238,12 @@ void SightPass::ensureImages(uvec2 pictureSize) {
 // Of the casters given, in one channel.
 void SightPass::drawCasters(gpu::CommandList& commands, std::span<const SeenCaster> casters, uint32_t channel,
                             const FrameImages& images) {
-  const gpu::Image& transmittance =
-      channel == 0 ? images.seen.transmittance : images.dispersed[channel - 1].transmittance;
   const std::optional<vec4> nothing = channel == 0 ? std::optional(vec4(0)) : std::nullopt;
   commands.render({.colors = {{&position_, 0, nothing},
                               {&images.casterNormal, 0, nothing},
                               {&exit_, 0, std::nullopt},
                               {&direction_, 0, std::nullopt},
-                              {&transmittance, 0, nothing},
+                              {&images.seen[channel].transmittance, 0, nothing},
                               {&receiver_, 0, std::nullopt}},
                    .depth = gpu::DepthAttachment{&images.depth, 0, std::nullopt},
                    .region = region_},
@@ -276,7 +276,7 @@ void SightPass::drawReceivers(gpu::CommandList& commands, const GpuScene& gpuSce
                           SliceConstants{gpuScene.vertices(), gpuScene.objects(), frame, depths, part,
                                          receiverColors_[receiver.object], receiver.object,
                                          receiverMaterials_[receiver.object]},
-                          {{*draw.colorTexture, gpuScene.textureSampler()}});
+                          {{"colorTexture", *draw.colorTexture, gpuScene.textureSampler()}});
                     }
                   });
 }
@@ -310,17 +310,26 @@ void SightPass::look(gpu::CommandList& commands, const gpu::Program& program, co
 void SightPass::lookThrough(gpu::CommandList& commands, const SeenCaster& caster, uint32_t channel,
                             const SeenImages& seen, bool isFirst) {
   look(commands, seenProgram_, caster, channel,
-       {position_, exit_, direction_, receiverImages_.depths, receiverImages_.normals,
-        receiverImages_.albedos, receiver_},
+       {{"casterPosition", position_},
+        {"casterExit", exit_},
+        {"casterDirection", direction_},
+        {"casterReceiver", receiver_},
+        {"depths", receiverImages_.depths},
+        {"normals", receiverImages_.normals},
+        {"albedos", receiverImages_.albedos}},
        seen, isFirst);
 }
 
 void SightPass::lookAtReflected(gpu::CommandList& commands, const SeenCaster& caster,
                                 const FrameImages& images, bool isFirst) {
   look(commands, reflectedProgram_, caster, 0,
-       {position_, images.casterNormal, direction_, receiverImages_.depths, receiverImages_.normals,
-        receiverImages_.albedos},
-       images.reflected, isFirst);
+       {{"casterPosition", position_},
+        {"casterNormal", images.casterNormal},
+        {"casterDirection", direction_},
+        {"depths", receiverImages_.depths},
+        {"normals", receiverImages_.normals},
+        {"albedos", receiverImages_.albedos}},
+       images.seen[kSeenReflected], isFirst);
 }
 
 void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images) {
@@ -335,8 +344,7 @@ void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, con
       commands.pass("sliced object images", [&] { drawSlices(commands, gpuScene, caster.slices[channel]); });
       commands.pass("seen through casters", [&] {
         const bool isFirst = channel > 0 && isFirstDispersed;
-        lookThrough(commands, caster, channel, channel == 0 ? images.seen : images.dispersed[channel - 1],
-                    isFirst);
+        lookThrough(commands, caster, channel, images.seen[channel], isFirst);
         if (channel == 2) isFirstDispersed = false;
       });
       if (channel > 0 || caster.isMirror) continue;
@@ -351,12 +359,14 @@ void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, con
 void SightPass::recordWays(gpu::CommandList& commands, const WaterInSight& water, const FrameImages& images,
                            const gpu::Image& start, const gpu::Image& direction) {
   const bool hasCasters = !casters_.empty();
-  const gpu::Image& none = images.seen.position;
+  const gpu::Image& none = images.seen[kSeen].position;
   commands.render({.colors = {{&start, 0, std::nullopt}, {&direction, 0, std::nullopt}}}, [&] {
-    commands.draw(
-        waysProgram_, 3, 1, water.constants,
-        {images.seen.position, hasCasters ? position_ : none, hasCasters ? images.casterNormal : none,
-         hasCasters ? exit_ : none, hasCasters ? direction_ : none});
+    commands.draw(waysProgram_, 3, 1, water.constants,
+                  {{"receiverPosition", images.seen[kSeen].position},
+                   {"casterPosition", hasCasters ? position_ : none},
+                   {"casterNormal", hasCasters ? images.casterNormal : none},
+                   {"casterExit", hasCasters ? exit_ : none},
+                   {"casterDirection", hasCasters ? direction_ : none}});
   });
 }
 

@@ -7,7 +7,7 @@
 
 layout(constant_id = 0) const bool kHasTexture = false;
 layout(push_constant, scalar) uniform Constants { SliceConstants constants; };
-layout(set = 0, binding = 0) uniform sampler2D colorTexture;
+uniform sampler2D colorTexture;
 layout(location = 0) in vec3 normal;
 layout(location = 1) in vec2 texcoord;
 layout(location = 0) out uint normalWord;

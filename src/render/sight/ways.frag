@@ -8,11 +8,11 @@
 #include "render/sight/ways_data.h"
 
 layout(push_constant, scalar) uniform Constants { WayConstants constants; };
-layout(set = 0, binding = 0) uniform texture2D receiverPosition;
-layout(set = 0, binding = 1) uniform texture2D casterPosition;
-layout(set = 0, binding = 2) uniform texture2D casterNormal;
-layout(set = 0, binding = 3) uniform texture2D casterExit;
-layout(set = 0, binding = 4) uniform texture2D casterDirection;
+uniform texture2D receiverPosition;
+uniform texture2D casterPosition;
+uniform texture2D casterNormal;
+uniform texture2D casterExit;
+uniform texture2D casterDirection;
 layout(location = 0) out vec4 wayStart;  // m; a = its length, 0 where there is none
 // Octahedral direction, away from the eye; the part of light from its start that comes to the eye, without what is taken by as many
 // m in the water before it.

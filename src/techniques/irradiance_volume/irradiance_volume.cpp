@@ -14,8 +14,8 @@
 #include "irradiance_volume/harmonics.h"
 #include "irradiance_volume/volume_file.h"
 #include "lights/light_intensity.h"
-#include "shaders/volume_frag.h"
-#include "shaders/whole_picture_vert.h"
+#include "shaders/techniques/irradiance_volume/volume_frag.h"
+#include "shaders/techniques/whole_picture_vert.h"
 #include "techniques/irradiance_volume/cell_images.h"
 #include "techniques/irradiance_volume/shader_data.h"
 
@@ -128,13 +128,14 @@ const gpu::Program& IrradianceVolumes::programFor(const LookUpTraits& traits) {
   const auto found = programs.find(traits);
   if (found != programs.end()) return found->second;
   return programs
-      .emplace(traits, gpu::createRasterProgram(
-                           device, "irradiance volume", shaders::whole_picture_vert, shaders::volume_frag,
-                           {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
-                           {{0, uint32_t(settings.representation)},
-                            {1, traits.flows ? 1u : 0u},
-                            {2, traits.isTinted ? 1u : 0u},
-                            {3, traits.isNear ? 1u : 0u}}))
+      .emplace(traits,
+               gpu::createRasterProgram(device, "irradiance volume", shaders::techniques_whole_picture_vert,
+                                        shaders::techniques_irradiance_volume_volume_frag,
+                                        {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
+                                        {{"kRepresentation", uint32_t(settings.representation)},
+                                         {"kFlows", traits.flows},
+                                         {"kIsTinted", traits.isTinted},
+                                         {"kIsNear", traits.isNear}}))
       .first->second;
 }
 
@@ -310,11 +311,11 @@ void IrradianceVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& 
       const CellImages& cells = share.light->cells.vectors ? share.light->cells : noCells;
       const gpu::Image& tints = cells.tints ? cells.tints : cells.vectors;  // any, where they are not read
       commands.draw(*share.program, 3, 1, share.constants,
-                    {*points.position,
-                     *points.normal,
-                     {cells.vectors, cellSampler},
-                     {tints, cellSampler},
-                     {share.flow ? share.flow->moves : noMoves, moveSampler}});
+                    {{"receiverPosition", *points.position},
+                     {"receiverNormal", *points.normal},
+                     {"cellVectors", cells.vectors, cellSampler},
+                     {"cellTints", tints, cellSampler},
+                     {"flowMoves", share.flow ? share.flow->moves : noMoves, moveSampler}});
     }
   });
 }

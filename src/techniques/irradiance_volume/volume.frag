@@ -9,7 +9,7 @@ struct VolumeView {
 };
 uint volumeWord(VolumeView volume, uint index) { return volume.words.word[index]; }
 
-layout(set = 0, binding = 4) uniform sampler2D flowMoves;  // a row for each y and z
+uniform sampler2D flowMoves;  // a row for each y and z
 struct FlowView {
   vec3 origin;
   vec3 scale;
@@ -26,10 +26,10 @@ layout(constant_id = 1) const bool kFlows = true;
 layout(constant_id = 2) const bool kIsTinted = true;
 layout(constant_id = 3) const bool kIsNear = true;  // the lamp
 layout(push_constant, scalar) uniform Constants { VolumeConstants constants; };
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
-layout(set = 0, binding = 2) uniform sampler2DArray cellVectors;  // as CellImages
-layout(set = 0, binding = 3) uniform sampler2DArray cellTints;
+layout(rgba32f) uniform readonly image2D receiverPosition;
+layout(rgba32f) uniform readonly image2D receiverNormal;
+uniform sampler2DArray cellVectors;  // as CellImages
+uniform sampler2DArray cellTints;
 layout(location = 0) out vec4 causticsLux;  // added to that of other shares
 
 // The images hold the cells that come after `first` others.

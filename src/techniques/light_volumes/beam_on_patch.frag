@@ -8,9 +8,9 @@
 #include "techniques/light_volumes/receiver_square.glsl.h"
 
 layout(constant_id = 0) const uint kIsStill = 0;  // the flat-water approximation of the cosine
-layout(set = 0, binding = 0) uniform texture2D receiverPosition;
-layout(set = 0, binding = 1) uniform texture2D axesU;
-layout(set = 0, binding = 2) uniform texture2D axesV;
+uniform texture2D receiverPosition;
+uniform texture2D axesU;
+uniform texture2D axesV;
 layout(location = 0) flat in vec4 positions[3];
 layout(location = 3) flat in vec4 directions[3];
 layout(location = 6) flat in vec4 stillAndPatch;

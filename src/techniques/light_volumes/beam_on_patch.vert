@@ -7,7 +7,7 @@
 #include "techniques/light_volumes/beam_texels.glsl.h"
 
 layout(push_constant, scalar) uniform Constants { BeamDrawConstants constants; };
-layout(set = 0, binding = 3) uniform utexture2D beamTexels;
+uniform utexture2D beamTexels;
 layout(location = 0) flat out vec4 positions[3];   // a: the reach
 layout(location = 3) flat out vec4 directions[3];  // a: a channel of the flux
 layout(location = 6) flat out vec4 stillAndPatch;

@@ -7,9 +7,9 @@
 #include "gpu/command_list.h"
 #include "gpu/program.h"
 #include "scene/volume.h"
-#include "shaders/beam_on_patch_frag.h"
-#include "shaders/beam_on_patch_vert.h"
-#include "shaders/patches_comp.h"
+#include "shaders/techniques/light_volumes/beam_on_patch_frag.h"
+#include "shaders/techniques/light_volumes/beam_on_patch_vert.h"
+#include "shaders/techniques/light_volumes/patches_comp.h"
 #include "techniques/light_beams.h"
 #include "techniques/light_volumes/scattered_light.h"
 #include "techniques/light_volumes/shader_data.h"
@@ -102,11 +102,12 @@ LightVolumes::LightVolumes(const TechniqueContext& context)
       transport(context.transport),
       casters(context.casters),
       source(transport.source()),
-      patches(gpu::createComputeProgram(device, "patches", shaders::patches_comp,
-                                        {{0, settings.culling == Culling::flat}})),
-      beamOnPatch(gpu::createRasterProgram(device, "beam on a patch", shaders::beam_on_patch_vert,
-                                           shaders::beam_on_patch_frag, stateOfDraws(),
-                                           {{0, settings.cosine == Cosine::stillWater}})),
+      patches(gpu::createComputeProgram(device, "patches", shaders::techniques_light_volumes_patches_comp,
+                                        {{"kIsFlat", settings.culling == Culling::flat}})),
+      beamOnPatch(gpu::createRasterProgram(
+          device, "beam on a patch", shaders::techniques_light_volumes_beam_on_patch_vert,
+          shaders::techniques_light_volumes_beam_on_patch_frag, stateOfDraws(),
+          {{"kIsStill", settings.cosine == Cosine::stillWater}})),
       counts(gpu::createBuffer(device, "counts of light volumes", sizeof(Counts))),
       countsRead(gpu::createBuffer(device, "counts to read", sizeof(Counts), gpu::MemoryKind::readback)),
       noDraws(gpu::createBuffer(device, "no draws", sizeof(BeamDrawCommand), gpu::MemoryKind::upload)),
@@ -214,11 +215,20 @@ void LightVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& point
       commands.barrier();
       commands.dispatch(patches, {(tiles.x + kTilesInGroup - 1) / kTilesInGroup * kThreads, tiles.y, 1},
                         listing,
-                        {*points.position, *points.normal, axesU, axesV, bounds.image(), beams.image()});
+                        {{"receiverPosition", *points.position},
+                         {"receiverNormal", *points.normal},
+                         {"axesU", axesU},
+                         {"axesV", axesV},
+                         {"boundsTexels", bounds.image()},
+                         {"beamTexels", beams.image()}});
     }
   });
   drawCaustics(commands, points, causticsLux, [&] {
-    commands.drawIndirect(beamOnPatch, command, drawing, {*points.position, axesU, axesV, beams.image()});
+    commands.drawIndirect(beamOnPatch, command, drawing,
+                          {{"receiverPosition", *points.position},
+                           {"axesU", axesU},
+                           {"axesV", axesV},
+                           {"beamTexels", beams.image()}});
   });
   commands.barrier();
   commands.copy(counts, countsRead, sizeof(Counts));

@@ -17,12 +17,12 @@
 layout(constant_id = 0) const uint kIsFlat = 0;  // every beam is asked for, without the hierarchy
 layout(local_size_x = kThreads) in;
 layout(push_constant, scalar) uniform Constants { PatchConstants constants; };
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
-layout(set = 0, binding = 2, rgba32f) uniform image2D axesU;
-layout(set = 0, binding = 3, rgba32f) uniform image2D axesV;  // a: which of its tile's patches a pixel is of
-layout(set = 0, binding = 4) uniform utexture2D boundsTexels;
-layout(set = 0, binding = 5) uniform utexture2D beamTexels;
+layout(rgba32f) uniform readonly image2D receiverPosition;
+layout(rgba32f) uniform readonly image2D receiverNormal;
+layout(rgba32f) uniform image2D axesU;
+layout(rgba32f) uniform image2D axesV;  // a: which of its tile's patches a pixel is of
+uniform utexture2D boundsTexels;
+uniform utexture2D beamTexels;
 
 // For each thread: groups of bounds that wait to be asked, and beams that wait to be drawn.
 const uint kGroupsAThread = 32, kBeamsAThread = 32;

@@ -12,11 +12,11 @@
 layout(push_constant, scalar) uniform Constants {
   ScatterConstants constants;
 };
-layout(set = 0, binding = 0) uniform texture2D wayStart;  // m; a = its length, 0 where there is none
+uniform texture2D wayStart;  // m; a = its length, 0 where there is none
 // Octahedral direction, away from the eye; part of what comes to the way's start that comes to the eye; m in the
 // volume before it.
-layout(set = 0, binding = 1) uniform texture2D wayDirection;
-layout(set = 0, binding = 2) uniform sampler2DArray layers;
+uniform texture2D wayDirection;
+uniform sampler2DArray layers;
 layout(location = 0) out vec4 luminance;
 
 const float kTexelsInStep = 1.5, kLayersInStep = 0.5;

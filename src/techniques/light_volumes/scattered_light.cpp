@@ -6,8 +6,8 @@
 
 #include "gpu/command_list.h"
 #include "scene/volume.h"
-#include "shaders/scatter_frag.h"
-#include "shaders/whole_picture_vert.h"
+#include "shaders/techniques/light_volumes/scatter_frag.h"
+#include "shaders/techniques/whole_picture_vert.h"
 
 namespace nephroid {
 namespace {
@@ -41,8 +41,8 @@ float meanOf(const std::vector<vec4>& texels) {
 
 ScatteredLight::ScatteredLight(gpu::Device& device)
     : device_(device),
-      program_(gpu::createRasterProgram(device, "light in water", shaders::whole_picture_vert,
-                                        shaders::scatter_frag,
+      program_(gpu::createRasterProgram(device, "light in water", shaders::techniques_whole_picture_vert,
+                                        shaders::techniques_light_volumes_scatter_frag,
                                         {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}})),
       sampler_(gpu::createSampler(device)) {}
 
@@ -97,7 +97,9 @@ void ScatteredLight::draw(gpu::CommandList& commands, const WaysOfSight& ways,
     commands.pass("light in water", [&] {
       commands.render({.colors = {{&luminance, 0, std::nullopt}}, .region = ways.region}, [&] {
         commands.draw(program_, 3, 1, portion.constants,
-                      {*ways.start, *ways.direction, {portion.layers, sampler_}});
+                      {{"wayStart", *ways.start},
+                       {"wayDirection", *ways.direction},
+                       {"layers", portion.layers, sampler_}});
       });
     });
   }

@@ -23,9 +23,9 @@ layout(constant_id = 2) const uint kGoesAlongAxis = 1;
 const int kStepsToReceiver = kGoesAlongAxis != 0 ? 4 : 6;
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Constants { DepositConstants constants; };
-layout(set = 0, binding = 0) uniform texture2DArray seenDepths;    // by the virtual camera, a layer a window
-layout(set = 0, binding = 1) uniform utexture2DArray seenNormals;  // as receiver_normal.glsl.h packs them
-layout(set = 0, binding = 2, r32ui) uniform uimage2DArray textures;
+uniform texture2DArray seenDepths;    // by the virtual camera, a layer a window
+uniform utexture2DArray seenNormals;  // as receiver_normal.glsl.h packs them
+layout(r32ui) uniform uimage2DArray textures;
 
 // A corner ray in the virtual camera's frame: metres along axisU, axisV and axisW.
 struct Ray {

@@ -7,11 +7,11 @@
 #include <numeric>
 
 #include "gpu/command_list.h"
-#include "shaders/deposit_comp.h"
-#include "shaders/receivers_frag.h"
-#include "shaders/receivers_vert.h"
-#include "shaders/shade_frag.h"
-#include "shaders/whole_picture_vert.h"
+#include "shaders/techniques/planes/deposit_comp.h"
+#include "shaders/techniques/planes/receivers_frag.h"
+#include "shaders/techniques/planes/receivers_vert.h"
+#include "shaders/techniques/planes/shade_frag.h"
+#include "shaders/techniques/whole_picture_vert.h"
 #include "techniques/light_beams.h"
 
 namespace nephroid {
@@ -45,15 +45,18 @@ uint32_t followsReceivers(const TechniqueSettings& settings) {
 
 gpu::Program depositProgram(gpu::Device& device, const char* name, uint32_t channels,
                             const TechniqueSettings& settings, bool goesAlongAxis) {
-  return gpu::createComputeProgram(device, name, shaders::deposit_comp,
-                                   {{0, channels}, {1, followsReceivers(settings)}, {2, goesAlongAxis}});
+  return gpu::createComputeProgram(device, name, shaders::techniques_planes_deposit_comp,
+                                   {{"kChannels", channels},
+                                    {"kFollowsReceivers", followsReceivers(settings)},
+                                    {"kGoesAlongAxis", goesAlongAxis}});
 }
 
 gpu::Program shadeProgram(gpu::Device& device, const char* name, uint32_t channels,
                           const TechniqueSettings& settings) {
-  return gpu::createRasterProgram(device, name, shaders::whole_picture_vert, shaders::shade_frag,
-                                  {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
-                                  {{0, channels}, {1, followsReceivers(settings)}});
+  return gpu::createRasterProgram(
+      device, name, shaders::techniques_whole_picture_vert, shaders::techniques_planes_shade_frag,
+      {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
+      {{"kChannels", channels}, {"kFollowsReceivers", followsReceivers(settings)}});
 }
 
 // The directions of a sky, each of which has planes of its own and its share of the light alone, have about
@@ -108,7 +111,8 @@ PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechn
       casters(context.casters),
       source(transport.source()),
       receiversProgram(
-          gpu::createRasterProgram(device, traits.viewPass, shaders::receivers_vert, shaders::receivers_frag,
+          gpu::createRasterProgram(device, traits.viewPass, shaders::techniques_planes_receivers_vert,
+                                   shaders::techniques_planes_receivers_frag,
                                    {.colors = {{VK_FORMAT_R32_UINT}}, .depthFormat = VK_FORMAT_D32_SFLOAT})),
       depositPrograms{depositProgram(device, "deposit", 1, settings, traits.goesAlongAxis),
                       depositProgram(device, "deposit in color", 3, settings, traits.goesAlongAxis)},
@@ -233,7 +237,7 @@ void PlaneTechnique::deposit(gpu::CommandList& commands, std::size_t set, VkDevi
     commands.dispatch(
         depositPrograms[lit[set].channels == 3], {count, 1, 1},
         DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), count, float(lit[set].textureSize)},
-        {own.depths, own.normals, own.textures});
+        {{"seenDepths", own.depths}, {"seenNormals", own.normals}, {"textures", own.textures}});
   }
 }
 
@@ -261,10 +265,10 @@ void PlaneTechnique::shade(gpu::CommandList& commands, const ReceiverPoints& poi
     for (std::size_t set = 0; set < lit.size(); ++set)
       commands.draw(shadePrograms[lit[set].channels == 3], 3, 1,
                     ShadeConstants{lit[set].planes, float(lit[set].textureSize)},
-                    {*points.position,
-                     *points.normal,
-                     {images[set].depths, texelSampler},
-                     {images[set].textures, texelSampler}});
+                    {{"receiverPosition", *points.position},
+                     {"receiverNormal", *points.normal},
+                     {"seenDepths", images[set].depths, texelSampler},
+                     {"textures", images[set].textures, texelSampler}});
   });
 }
 

@@ -7,10 +7,10 @@
 layout(constant_id = 0) const uint kChannels = 3;
 layout(constant_id = 1) const uint kFollowsReceivers = 1;
 layout(push_constant, scalar) uniform Constants { ShadeConstants constants; };
-layout(set = 0, binding = 0, rgba32f) uniform readonly image2D receiverPosition;
-layout(set = 0, binding = 1, rgba32f) uniform readonly image2D receiverNormal;
-layout(set = 0, binding = 2) uniform sampler2DArray seenDepths;  // by the virtual camera, a layer a window
-layout(set = 0, binding = 3) uniform usampler2DArray textures;
+layout(rgba32f) uniform readonly image2D receiverPosition;
+layout(rgba32f) uniform readonly image2D receiverNormal;
+uniform sampler2DArray seenDepths;  // by the virtual camera, a layer a window
+uniform usampler2DArray textures;
 layout(location = 0) out vec4 causticsLux;  // added to that of other sets
 
 // Of the four texels about a place on a plane, in the order of textureGather.

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "gpu/command_list.h"
-#include "shaders/show_layers_frag.h"
-#include "shaders/show_plain_frag.h"
-#include "shaders/show_words_frag.h"
-#include "shaders/whole_picture_vert.h"
+#include "shaders/techniques/whole_picture_vert.h"
+#include "shaders/viewer/show/layers_frag.h"
+#include "shaders/viewer/show/plain_frag.h"
+#include "shaders/viewer/show/words_frag.h"
 #include "techniques/show_data.h"
 
 namespace nephroid {
@@ -15,8 +15,8 @@ namespace {
 constexpr VkFormat kBytes = VK_FORMAT_R8G8B8A8_UNORM;
 
 gpu::Program program(gpu::Device& device, std::span<const uint32_t> fragment) {
-  return gpu::createRasterProgram(device, "output of a pass", shaders::whole_picture_vert, fragment,
-                                  {.colors = {{kBytes}}});
+  return gpu::createRasterProgram(device, "output of a pass", shaders::techniques_whole_picture_vert,
+                                  fragment, {.colors = {{kBytes}}});
 }
 
 // So that the layers' cells are nearly as wide as the layers are.
@@ -30,9 +30,9 @@ uint32_t columnsFor(uint32_t layers, uvec2 size, uvec2 layer) {
 
 OutputView::OutputView(gpu::Device& device)
     : device_(device),
-      plain_(program(device, shaders::show_plain_frag)),
-      layers_(program(device, shaders::show_layers_frag)),
-      words_(program(device, shaders::show_words_frag)) {}
+      plain_(program(device, shaders::viewer_show_plain_frag)),
+      layers_(program(device, shaders::viewer_show_layers_frag)),
+      words_(program(device, shaders::viewer_show_words_frag)) {}
 
 const gpu::Image& OutputView::show(const PassOutput& output, uvec2 size) {
   if (!picture_ || uvec2(picture_.width(), picture_.height()) != size)
@@ -47,8 +47,9 @@ const gpu::Image& OutputView::show(const PassOutput& output, uvec2 size) {
   const gpu::Program& chosen = isWords ? words_ : image.isArray() ? layers_ : plain_;
   device_.submitAndWait([&](gpu::CommandList& commands) {
     commands.pass("output of a pass", [&] {
-      commands.render({.colors = {{&picture_, 0, vec4(0)}}},
-                      [&] { commands.draw(chosen, 3, 1, constants, {image}); });
+      commands.render({.colors = {{&picture_, 0, vec4(0)}}}, [&] {
+        commands.draw(chosen, 3, 1, constants, {{"image", image}});
+      });
     });
   });
   return picture_;

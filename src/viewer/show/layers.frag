@@ -1,4 +1,4 @@
-// Layers of whole numbers.
+// Layers of floats.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -6,11 +6,11 @@
 #include "techniques/show_data.h"
 
 layout(push_constant, scalar) uniform Constants { ShowConstants constants; };
-layout(binding = 0) uniform utexture2DArray image;
+uniform texture2DArray image;
 layout(location = 0) out vec4 picture;
 
 vec4 texelOf(ivec2 texel, int layer) {
-  return vec4(texelFetch(image, ivec3(texel, layer), 0).r);
+  return texelFetch(image, ivec3(texel, layer), 0);
 }
 
 #include "viewer/show/show.glsl.h"

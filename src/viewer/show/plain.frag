@@ -1,4 +1,4 @@
-// Layers of floats.
+// An image of one layer.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -6,11 +6,11 @@
 #include "techniques/show_data.h"
 
 layout(push_constant, scalar) uniform Constants { ShowConstants constants; };
-layout(binding = 0) uniform texture2DArray image;
+uniform texture2D image;
 layout(location = 0) out vec4 picture;
 
 vec4 texelOf(ivec2 texel, int layer) {
-  return texelFetch(image, ivec3(texel, layer), 0);
+  return texelFetch(image, texel, 0);
 }
 
 #include "viewer/show/show.glsl.h"

@@ -1,4 +1,4 @@
-// An image of one layer.
+// Layers of whole numbers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -6,11 +6,11 @@
 #include "techniques/show_data.h"
 
 layout(push_constant, scalar) uniform Constants { ShowConstants constants; };
-layout(binding = 0) uniform texture2D image;
+uniform utexture2DArray image;
 layout(location = 0) out vec4 picture;
 
 vec4 texelOf(ivec2 texel, int layer) {
-  return texelFetch(image, texel, 0);
+  return vec4(texelFetch(image, ivec3(texel, layer), 0).r);
 }
 
 #include "viewer/show/show.glsl.h"
