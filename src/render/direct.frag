@@ -7,17 +7,18 @@
 
 layout(rgba32f) uniform readonly image2D receiverPosition;
 layout(rgba32f) uniform readonly image2D receiverNormal;
-uniform sampler2DArray boxDepths;  // kHasBox
-layout(location = 0) flat in Air air;                            // kHasAir
-layout(location = 11) flat in AirBox box;                        // kHasBox
-layout(location = 0) out vec4 directLux;  // added to that of other lights
+uniform sampler2DArray boxDepths;          // kHasBox
+layout(location = 0) flat in Air air;      // kHasAir
+layout(location = 11) flat in AirBox box;  // kHasBox
+layout(location = 0) out vec4 directLux;   // added to that of other lights
 
-// The point is moved off its surface so far that a plane never shades itself within the filter: (filter radius) * texel *
-// sin(angle of incidence) along the normal.
+// The point is moved off its surface so far that a plane never shades itself within the filter: (filter
+// radius) * texel * sin(angle of incidence) along the normal.
 float visibility(vec3 offset, vec3 normal, float cosine, vec2 middle, uint firstMap) {
   uint face = 0;
   float width = constants.texelSize;
-  if (kEmitterType != kEmitterDirectional) width *= max(projected(offset, float(textureSize(shadowMaps, 0).x), face).z, 0);
+  if (kEmitterType != kEmitterDirectional)
+    width *= max(projected(offset, float(textureSize(shadowMaps, 0).x), face).z, 0);
   return litPart(offset + width * (1.5 * sqrt(max(1 - cosine * cosine, 0)) + 0.3) * normal, middle, firstMap);
 }
 

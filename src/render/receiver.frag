@@ -4,7 +4,9 @@
 #include "render/frame_data.h"
 
 layout(constant_id = 0) const bool kHasTexture = false;
-layout(push_constant, scalar) uniform Constants { SurfaceConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  SurfaceConstants constants;
+};
 uniform sampler2D colorTexture;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

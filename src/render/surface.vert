@@ -2,7 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/frame_data.h"
 
-layout(push_constant, scalar) uniform Constants { SurfaceConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  SurfaceConstants constants;
+};
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec2 texcoord;

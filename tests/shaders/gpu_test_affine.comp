@@ -3,7 +3,9 @@
 #include "gpu/buffer_address.h"
 
 layout(local_size_x = 64) in;
-layout(buffer_reference, scalar) buffer Values { float value[]; };
+layout(buffer_reference, scalar) buffer Values {
+  float value[];
+};
 layout(push_constant, scalar) uniform Constants {
   Values from;
   Values to;

@@ -4,8 +4,12 @@
 #include "optics/refraction.h"
 
 layout(local_size_x = 64) in;
-layout(buffer_reference, scalar) readonly buffer Directions { vec3 direction[]; };
-layout(buffer_reference, scalar) writeonly buffer Results { vec4 result[]; };
+layout(buffer_reference, scalar) readonly buffer Directions {
+  vec3 direction[];
+};
+layout(buffer_reference, scalar) writeonly buffer Results {
+  vec4 result[];
+};
 layout(push_constant, scalar) uniform Constants {
   Directions directions;
   Results results;

@@ -4,16 +4,26 @@
 #include "transport/table/entry.h"
 
 layout(local_size_x = 64) in;
-layout(buffer_reference, scalar) readonly buffer Words { uint word[]; };
-layout(buffer_reference, scalar) readonly buffer Layouts { TableLayout table[]; };
-layout(buffer_reference, scalar) readonly buffer Directions { vec3 direction[]; };
+layout(buffer_reference, scalar) readonly buffer Words {
+  uint word[];
+};
+layout(buffer_reference, scalar) readonly buffer Layouts {
+  TableLayout table[];
+};
+layout(buffer_reference, scalar) readonly buffer Directions {
+  vec3 direction[];
+};
 
 #define TableView TableLayout
 Words tableWords;
-uint tableWord(TableView table, uint index) { return tableWords.word[index]; }
+uint tableWord(TableView table, uint index) {
+  return tableWords.word[index];
+}
 #include "transport/table/lookup.h"
 
-layout(buffer_reference, scalar) writeonly buffer Rays { OutgoingRay ray[]; };
+layout(buffer_reference, scalar) writeonly buffer Rays {
+  OutgoingRay ray[];
+};
 layout(push_constant, scalar) uniform Constants {
   Words words;
   Layouts layouts;

@@ -1,10 +1,13 @@
-// A triangle that covers every texel of the targets, with what is said of the air and of the ray of sight there.
+// A triangle that covers every texel of the targets, with what is said of the air and of the ray of sight
+// there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "render/frame_data.h"
 
 layout(constant_id = 5) const bool kHasAir = true;
-layout(push_constant, scalar) uniform Constants { DirectConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  DirectConstants constants;
+};
 layout(location = 0) flat out Air air;
 layout(location = 5) flat out AirPlanes planes;
 layout(location = 8) flat out vec3 eye;

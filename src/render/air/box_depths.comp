@@ -6,7 +6,9 @@
 #include "render/air/box.glsl.h"
 
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;
-layout(push_constant, scalar) uniform Constants { AirDepthConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  AirDepthConstants constants;
+};
 uniform sampler2DArray density;
 layout(rgba16f) uniform writeonly image2DArray depths;
 

@@ -1,6 +1,8 @@
-// Luminance (nit) that one light's way through the air adds to each pixel: the sum over sampling planes of Dobashi 2002, eqs. 5 to
-// 9. Rays are clipped to the light's cone and to what they meet. Planes stand at equal angles as the light sees them, so that the
-// inverse square is summed exactly (Kulla and Fajardo 2012); sub-planes are used where the light that arrives changes.
+// Luminance (nit) that one light's way through the air adds to each pixel: the sum over sampling planes of
+// Dobashi 2002, eqs. 5 to
+// 9. Rays are clipped to the light's cone and to what they meet. Planes stand at equal angles as the light
+// sees them, so that the inverse square is summed exactly (Kulla and Fajardo 2012); sub-planes are used where
+// the light that arrives changes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -26,16 +28,18 @@ const float kMargin = 3;
 
 // A ray of sight as a light sees it.
 struct Sight {
-  vec3 direction;  // unit
-  vec3 origin;     // m from the light, or from the maps' aim where light comes from afar
-  float closest;   // m along the ray, of the place next to the light
-  float height;    // m from the light there
-  vec2 part;       // m along the ray, of what is looked at
-  float span;      // the angle of that part, as the light sees it; for light from afar what the air takes of light on that part
-  float start;     // m along the ray from the closest place, where the part begins
-  float startAway; // m from the light there
-  float lastSeen;  // m along the ray, as far as shadow maps are looked at: what ends the ray is not to shade it
-  vec2 toAxis;     // along the light's direction: of `origin`, m, and of `direction`
+  vec3 direction;   // unit
+  vec3 origin;      // m from the light, or from the maps' aim where light comes from afar
+  float closest;    // m along the ray, of the place next to the light
+  float height;     // m from the light there
+  vec2 part;        // m along the ray, of what is looked at
+  float span;       // the angle of that part, as the light sees it; for light from afar what the air takes of
+                    // light on that part
+  float start;      // m along the ray from the closest place, where the part begins
+  float startAway;  // m from the light there
+  float
+      lastSeen;  // m along the ray, as far as shadow maps are looked at: what ends the ray is not to shade it
+  vec2 toAxis;   // along the light's direction: of `origin`, m, and of `direction`
 };
 
 struct Place {
@@ -46,7 +50,9 @@ struct Place {
   vec2 part;     // of the span, 0 to 1; of an angle its cosine and sine
 };
 
-bool isFar() { return kEmitterType == kEmitterDirectional; }
+bool isFar() {
+  return kEmitterType == kEmitterDirectional;
+}
 
 // Where the ray, its closest place at 0, runs within the spot's cone.
 vec2 withinCone(float height, vec3 toClosest, vec3 direction) {
@@ -94,13 +100,18 @@ Sight sightFrom(vec3 origin, vec3 direction, float reach) {
   return sight;
 }
 
-// Of an angle from 0 to pi, as precise as it is small; software devices take several times as long over sin and cos.
+// Of an angle from 0 to pi, as precise as it is small; software devices take several times as long over sin
+// and cos.
 vec2 cosineAndSine(float angle) {
   const float halved = 0.5 * angle, square = halved * halved;
   const float sine =
-      halved * (1 + square * (-1.0 / 6 + square * (1.0 / 120 + square * (-1.0 / 5040 + square * (1.0 / 362880 - square / 39916800)))));
+      halved *
+      (1 + square *
+               (-1.0 / 6 +
+                square * (1.0 / 120 + square * (-1.0 / 5040 + square * (1.0 / 362880 - square / 39916800)))));
   const float cosine =
-      1 + square * (-0.5 + square * (1.0 / 24 + square * (-1.0 / 720 + square * (1.0 / 40320 - square / 3628800))));
+      1 + square * (-0.5 +
+                    square * (1.0 / 24 + square * (-1.0 / 720 + square * (1.0 / 40320 - square / 3628800))));
   return vec2(1 - 2 * sine * sine, 2 * sine * cosine);
 }
 
@@ -135,7 +146,9 @@ Place placeBetween(Sight sight, Place a, Place b) {
 
 // H: the part of the light that comes to a place.
 float visibleAt(Sight sight, Place place, vec2 middle, uint firstMap) {
-  return kMapCount > 0 ? litPart(sight.origin + min(place.along, sight.lastSeen) * sight.direction, middle, firstMap) : 1;
+  return kMapCount > 0
+             ? litPart(sight.origin + min(place.along, sight.lastSeen) * sight.direction, middle, firstMap)
+             : 1;
 }
 
 // I_l: what the light sends to a place, as a part of its peak.
@@ -149,7 +162,8 @@ vec3 sentTo(Sight sight, Place place) {
   return part > 0 ? part * shape((sight.origin + place.along * sight.direction) * inverse) : vec3(0);
 }
 
-// What of the light that arrives is sent to the eye, over the span: g of eq. 3. Light from afar is not weakened before.
+// What of the light that arrives is sent to the eye, over the span: g of eq. 3. Light from afar is not
+// weakened before.
 float scattered(Sight sight, Place place, float lightHeight) {
   const vec3 point = eye + place.along * sight.direction;
   float dense = 1, depth;
@@ -185,11 +199,13 @@ vec3 scatteredFrom(vec3 origin, vec3 direction, float reach, uint firstMap) {
     const vec3 betweenLight = 0.5 * (visible + endVisible) * sentTo(sight, between);
     // A jump may be anywhere in the step; what is smooth Simpson's rule sums better than it is judged here.
     const vec3 bend = abs(light + endLight - 2 * betweenLight) / 3;
-    const float change = max(abs(endVisible - visible) * max(light.x + light.y + light.z, endLight.x + endLight.y + endLight.z) / 3,
+    const float change = max(abs(endVisible - visible) *
+                                 max(light.x + light.y + light.z, endLight.x + endLight.y + endLight.z) / 3,
                              max(bend.x, max(bend.y, bend.z)));
     const bool isCut = step > 1 && change * float(step) * unit > planes.tolerance;
     // Simpson's rule.
-    const vec3 mean = (g * light + 4 * scattered(sight, between, origin.y) * betweenLight + endG * endLight) / 6;
+    const vec3 mean =
+        (g * light + 4 * scattered(sight, between, origin.y) * betweenLight + endG * endLight) / 6;
     sum += isCut ? vec3(0) : float(step) * mean;
     if (!isCut) start = end;
     visible = isCut ? visible : endVisible;
@@ -210,7 +226,8 @@ void main() {
   vec3 sum = vec3(0);
   if (kIsLine) {
     for (uint i = 0; i < constants.samples; ++i)
-      sum += scatteredFrom(constants.position + float(i) * constants.direction, direction, reach, i * kMapCount);
+      sum +=
+          scatteredFrom(constants.position + float(i) * constants.direction, direction, reach, i * kMapCount);
   } else {
     sum = scatteredFrom(constants.position, direction, reach, 0);
   }

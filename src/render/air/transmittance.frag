@@ -1,4 +1,5 @@
-// How much of the light from what a pixel sees the air before it lets through (Dobashi 2002, eq. 1), and no shafts yet.
+// How much of the light from what a pixel sees the air before it lets through (Dobashi 2002, eq. 1), and no
+// shafts yet.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -3,7 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/sight/sight_data.h"
 
-layout(push_constant, scalar) uniform Constants { CasterConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  CasterConstants constants;
+};
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 exit;       // a = reach

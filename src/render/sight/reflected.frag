@@ -7,7 +7,9 @@
 #include "optics/refraction.h"
 #include "render/sight/find_receiver.glsl.h"
 
-layout(push_constant, scalar) uniform Constants { SightConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  SightConstants constants;
+};
 uniform texture2D casterPosition;
 uniform texture2D casterNormal;
 uniform texture2D casterDirection;
@@ -25,7 +27,8 @@ void main() {
   const vec4 normal = texelFetch(casterNormal, pixel, 0);
   const vec3 facing = normalize(normal.xyz);
   const vec3 incident = normalize(position.xyz - constants.eye);
-  float reflectance = fresnelReflectance(clamp(-dot(incident, facing), 0, 1), normal.a > 0 ? 1 / constants.ior : constants.ior);
+  float reflectance = fresnelReflectance(clamp(-dot(incident, facing), 0, 1),
+                                         normal.a > 0 ? 1 / constants.ior : constants.ior);
   if (normal.a < 0 && reflectance == 1) reflectance = 0;  // sight goes there as the way on, as `seen` has it
   if (constants.isThinWalled != 0) reflectance = 2 * reflectance / (1 + reflectance);
   receiverPosition = receiverAlbedo = vec4(0);

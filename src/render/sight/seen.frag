@@ -6,7 +6,9 @@
 
 #include "render/sight/find_receiver.glsl.h"
 
-layout(push_constant, scalar) uniform Constants { SightConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  SightConstants constants;
+};
 uniform texture2D casterPosition;
 uniform texture2D casterExit;
 uniform texture2D casterDirection;
@@ -24,8 +26,8 @@ void main() {
   const vec4 exit = texelFetch(casterExit, pixel, 0);
   const SightRay ray = SightRay(exit.xyz, normalize(texelFetch(casterDirection, pixel, 0).xyz));
   receiverPosition = receiverNormal = receiverAlbedo = vec4(0);
-  const FoundReceiver found =
-      findReceiver(ray, isMine ? exit.a : kNoReach, constants.slices, constants.center, constants.reach, depths, normals);
+  const FoundReceiver found = findReceiver(ray, isMine ? exit.a : kNoReach, constants.slices,
+                                           constants.center, constants.reach, depths, normals);
   if (!isMine) discard;  // not before: software devices go on with the search
   if (found.distance < 0) {
     // Hidden in the images, by another receiver: it is near where the corners' rays ended.

@@ -6,7 +6,9 @@
 #include "render/sight/slice_texel.glsl.h"
 
 layout(constant_id = 0) const bool kHasTexture = false;
-layout(push_constant, scalar) uniform Constants { SliceConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  SliceConstants constants;
+};
 uniform sampler2D colorTexture;
 layout(location = 0) in vec3 normal;
 layout(location = 1) in vec2 texcoord;

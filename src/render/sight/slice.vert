@@ -3,7 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/sight/sight_data.h"
 
-layout(push_constant, scalar) uniform Constants { SliceConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  SliceConstants constants;
+};
 layout(location = 0) out vec3 normal;
 layout(location = 1) out vec2 texcoord;
 

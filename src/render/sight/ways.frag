@@ -1,5 +1,5 @@
-// Where each pixel's line of sight goes through the water of an object: from its surface as far as what is seen in it; or from an eye
-// in the water, and on from where its surface reflects totally.
+// Where each pixel's line of sight goes through the water of an object: from its surface as far as what is
+// seen in it; or from an eye in the water, and on from where its surface reflects totally.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -7,15 +7,17 @@
 #include "optics/refraction.h"
 #include "render/sight/ways_data.h"
 
-layout(push_constant, scalar) uniform Constants { WayConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  WayConstants constants;
+};
 uniform texture2D receiverPosition;
 uniform texture2D casterPosition;
 uniform texture2D casterNormal;
 uniform texture2D casterExit;
 uniform texture2D casterDirection;
 layout(location = 0) out vec4 wayStart;  // m; a = its length, 0 where there is none
-// Octahedral direction, away from the eye; the part of light from its start that comes to the eye, without what is taken by as many
-// m in the water before it.
+// Octahedral direction, away from the eye; the part of light from its start that comes to the eye, without
+// what is taken by as many m in the water before it.
 layout(location = 1) out vec4 wayDirection;
 
 void fromEye(vec4 receiver, vec4 caster) {
@@ -28,16 +30,19 @@ void fromEye(vec4 receiver, vec4 caster) {
 }
 
 void fromSurface(ivec2 pixel, vec4 receiver, vec4 caster) {
-  const vec3 start = texelFetch(casterExit, pixel, 0).xyz, direction = normalize(texelFetch(casterDirection, pixel, 0).xyz);
+  const vec3 start = texelFetch(casterExit, pixel, 0).xyz,
+             direction = normalize(texelFetch(casterDirection, pixel, 0).xyz);
   const vec3 normal = normalize(texelFetch(casterNormal, pixel, 0).xyz);  // on the side of the eye
   const bool isReflected = constants.kind == kWayReflected;
   const bool isThere = caster.a == float(constants.number) && (dot(direction, normal) < 0) != isReflected;
   const float way = receiver.a > 0 ? dot(receiver.xyz - start, direction) : constants.farthest;
   const vec3 before = caster.xyz - constants.eye;
   const float eta = 1 / constants.ior;
-  const float through = (1 - fresnelReflectance(clamp(-dot(normalize(before), normal), 0, 1), eta)) * eta * eta;
+  const float through =
+      (1 - fresnelReflectance(clamp(-dot(normalize(before), normal), 0, 1), eta)) * eta * eta;
   wayStart = vec4(start, isThere ? max(way, 0) : 0);
-  wayDirection = vec4(octahedralFromDirection(direction), isReflected ? vec2(1, length(before)) : vec2(through, 0));
+  wayDirection =
+      vec4(octahedralFromDirection(direction), isReflected ? vec2(1, length(before)) : vec2(through, 0));
 }
 
 void main() {

@@ -7,7 +7,9 @@ struct VolumeView {
   uvec3 size;
   VolumeWords words;
 };
-uint volumeWord(VolumeView volume, uint index) { return volume.words.word[index]; }
+uint volumeWord(VolumeView volume, uint index) {
+  return volume.words.word[index];
+}
 
 uniform sampler2D flowMoves;  // a row for each y and z
 struct FlowView {
@@ -25,7 +27,9 @@ layout(constant_id = 0) const uint kRepresentation = 0;
 layout(constant_id = 1) const bool kFlows = true;
 layout(constant_id = 2) const bool kIsTinted = true;
 layout(constant_id = 3) const bool kIsNear = true;  // the lamp
-layout(push_constant, scalar) uniform Constants { VolumeConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  VolumeConstants constants;
+};
 layout(rgba32f) uniform readonly image2D receiverPosition;
 layout(rgba32f) uniform readonly image2D receiverNormal;
 uniform sampler2DArray cellVectors;  // as CellImages
@@ -81,8 +85,8 @@ void main() {
   const uvec3 size =
       uvec3(constants.sizeAcross & lower, constants.sizeAcross >> 16u, constants.sizeAndFlowSide & lower);
   VolumeView volume = VolumeView(size, constants.words);
-  VolumeLight light =
-      kFlows ? flowedLight(volume, kRepresentation, flow, place) : volumeLight(volume, kRepresentation, place);
+  VolumeLight light = kFlows ? flowedLight(volume, kRepresentation, flow, place)
+                             : volumeLight(volume, kRepresentation, place);
   if (light.vector == vec3(0)) return;
   light.vector = toWorld(light.vector);
   if (inRegion.w < 1)

@@ -1,5 +1,6 @@
-// Adds to a pixel the light of a beam (Barczak and Olano, 3.1 and 3.2, without planes and stencils): what part of the beam's
-// footprint on the receiver the pixel's own square there holds. So no flux is lost or made where beams are narrower than a pixel.
+// Adds to a pixel the light of a beam (Barczak and Olano, 3.1 and 3.2, without planes and stencils): what
+// part of the beam's footprint on the receiver the pixel's own square there holds. So no flux is lost or made
+// where beams are narrower than a pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -17,8 +18,8 @@ layout(location = 6) flat in vec4 stillAndPatch;
 layout(location = 7) flat in vec3 extinction;
 layout(location = 0) out vec4 causticsLux;
 
-// The part of the beam's flux that the square holds; `cosine` is the mean of the corners' with the receiver, `meanWay` that of how far (m)
-// they come.
+// The part of the beam's flux that the square holds; `cosine` is the mean of the corners' with the receiver,
+// `meanWay` that of how far (m) they come.
 float shareOf(ReceiverSquare square, out float cosine, out float meanWay) {
   vec2 corners[3];
   vec3 lit;
@@ -40,7 +41,8 @@ float shareOf(ReceiverSquare square, out float cosine, out float meanWay) {
   // Corners hidden by what stands before: the light fades toward them.
   const vec2 a = corners[0], b = corners[1], c = corners[2];
   const float all = doubledArea(a, b, c);
-  const vec3 weights = vec3(doubledArea(vec2(0), b, c), doubledArea(a, vec2(0), c), doubledArea(a, b, vec2(0)));
+  const vec3 weights =
+      vec3(doubledArea(vec2(0), b, c), doubledArea(a, vec2(0), c), doubledArea(a, b, vec2(0)));
   const vec3 inside = clamp(weights * sign(all), vec3(0), vec3(abs(all)));
   const float part = lit == vec3(1) ? 1 : dot(lit, inside) / max(dot(inside, vec3(1)), 1e-30);
   return steepest < 1e-3 || lit == vec3(0) ? 0 : part * shareInTexel(a + 0.5, b + 0.5, c + 0.5);

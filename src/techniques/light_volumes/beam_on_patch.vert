@@ -6,7 +6,9 @@
 
 #include "techniques/light_volumes/beam_texels.glsl.h"
 
-layout(push_constant, scalar) uniform Constants { BeamDrawConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  BeamDrawConstants constants;
+};
 uniform utexture2D beamTexels;
 layout(location = 0) flat out vec4 positions[3];   // a: the reach
 layout(location = 3) flat out vec4 directions[3];  // a: a channel of the flux

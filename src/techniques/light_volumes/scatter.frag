@@ -13,8 +13,8 @@ layout(push_constant, scalar) uniform Constants {
   ScatterConstants constants;
 };
 uniform texture2D wayStart;  // m; a = its length, 0 where there is none
-// Octahedral direction, away from the eye; part of what comes to the way's start that comes to the eye; m in the
-// volume before it.
+// Octahedral direction, away from the eye; part of what comes to the way's start that comes to the eye; m in
+// the volume before it.
 uniform texture2D wayDirection;
 uniform sampler2DArray layers;
 layout(location = 0) out vec4 luminance;

@@ -1,12 +1,13 @@
-// Leaves every beam's flux on the virtual planes, so that nothing is lost or made where a beam is narrower than a texel.
+// Leaves every beam's flux on the virtual planes, so that nothing is lost or made where a beam is narrower
+// than a texel.
 //
-// Flat planes are those of Iwasaki 2005b (eq. 3, with the flux in place of intensity times area ratio). A plane that follows the
-// receivers is bent, within half the distance to its neighbours, onto what the virtual camera sees: light is then left where it
-// arrives, and nothing is smeared between planes.
+// Flat planes are those of Iwasaki 2005b (eq. 3, with the flux in place of intensity times area ratio). A
+// plane that follows the receivers is bent, within half the distance to its neighbours, onto what the virtual
+// camera sees: light is then left where it arrives, and nothing is smeared between planes.
 //
-// Each thread of a subgroup finds where one beam falls; then all of them, as a block a texel a thread, move over one beam's footprint
-// after the other. Loops ask at their end: a software device passes once through all that stands in one, whether it has threads
-// for it or not.
+// Each thread of a subgroup finds where one beam falls; then all of them, as a block a texel a thread, move
+// over one beam's footprint after the other. Loops ask at their end: a software device passes once through
+// all that stands in one, whether it has threads for it or not.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -18,11 +19,14 @@
 
 layout(constant_id = 0) const uint kChannels = 3;
 layout(constant_id = 1) const uint kFollowsReceivers = 1;
-// Light goes along axisW, give or take: where nobody knows what it meets first, that is what the virtual camera sees.
+// Light goes along axisW, give or take: where nobody knows what it meets first, that is what the virtual
+// camera sees.
 layout(constant_id = 2) const uint kGoesAlongAxis = 1;
 const int kStepsToReceiver = kGoesAlongAxis != 0 ? 4 : 6;
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Constants { DepositConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  DepositConstants constants;
+};
 uniform texture2DArray seenDepths;    // by the virtual camera, a layer a window
 uniform utexture2DArray seenNormals;  // as receiver_normal.glsl.h packs them
 layout(r32ui) uniform uimage2DArray textures;
@@ -57,16 +61,19 @@ vec4 tangentPlane(vec3 point, vec3 normal) {
   return vec4(outward, dot(outward, point));
 }
 
-// Takes the tangent plane of what is seen next to where the ray is by now, again and again. One step is exact on a flat receiver.
+// Takes the tangent plane of what is seen next to where the ray is by now, again and again. One step is exact
+// on a flat receiver.
 Arrival arrivalOf(Ray ray, float reach) {
   const PlaneSet set = constants.set;
   const float range = set.farthestDepth - set.nearestDepth;
-  const float toNearest = distanceToDepth(ray, set.nearestDepth), toFarthest = distanceToDepth(ray, set.farthestDepth);
+  const float toNearest = distanceToDepth(ray, set.nearestDepth),
+              toFarthest = distanceToDepth(ray, set.farthestDepth);
   const float nearest = max(min(toNearest, toFarthest), 0), farthest = max(max(toNearest, toFarthest), 0);
   const vec2 center = set.windows[0].corner + 0.5 * set.windows[0].size / set.windows[0].texelsPerMetre;
   const float middle = set.firstDepth + 0.5 * float(set.planes - 1) * set.depthStep;
-  float distance = abs(ray.direction.z) >= kLeastApproach ? distanceToDepth(ray, middle)
-                                                          : dot(vec3(center, middle) - ray.start, ray.direction);
+  float distance = abs(ray.direction.z) >= kLeastApproach
+                       ? distanceToDepth(ray, middle)
+                       : dot(vec3(center, middle) - ray.start, ray.direction);
   const bool isReachKnown = reach < kUnboundedReach;
   if (isReachKnown) distance = reach;
   distance = clamp(distance, nearest, farthest);
@@ -88,7 +95,8 @@ Arrival arrivalOf(Ray ray, float reach) {
     const float seen = texelFetch(seenDepths, ivec3(texel, window), 0).r;
     const vec3 normal = unpackedNormal(texelFetch(seenNormals, ivec3(texel, window), 0).r);
     const float seenDepth = set.nearestDepth + seen * range;
-    const vec4 next = tangentPlane(vec3(point.xy - (place - texel - 0.5) * metresPerTexel, seenDepth), normal);
+    const vec4 next =
+        tangentPlane(vec3(point.xy - (place - texel - 0.5) * metresPerTexel, seenDepth), normal);
     // How far the ray stands from it, and how fast it comes nearer.
     const float ahead = dot(next.xyz, point) - next.w;
     const float approach = -dot(next.xyz, ray.direction);
@@ -106,7 +114,8 @@ Arrival arrivalOf(Ray ray, float reach) {
   if (!isSeen) distance = toSeen;
   const float tolerance = 2 * metresPerTexel + 1e-3 * range;
   const bool isMet = isSeen && isLit && change <= tolerance;
-  if (isReachKnown) return Arrival(distance, isMet && abs(distance - reach) <= 0.01 * reach + tolerance, plane);
+  if (isReachKnown)
+    return Arrival(distance, isMet && abs(distance - reach) <= 0.01 * reach + tolerance, plane);
   return Arrival(distance, isMet || kGoesAlongAxis != 0, plane);
 }
 
@@ -127,12 +136,14 @@ Crossing crossingAt(Ray rays[3], vec3 distances) {
   return crossing;
 }
 
-// How far a plane reaches that follows the receivers, m to either side: half the way to its neighbours, and a little more because
-// neighbouring texels may be asked for that lie past the border.
-float reachOf(uint window) { return 0.5 * constants.set.depthStep + 3 / constants.set.windows[window].texelsPerMetre; }
+// How far a plane reaches that follows the receivers, m to either side: half the way to its neighbours, and a
+// little more because neighbouring texels may be asked for that lie past the border.
+float reachOf(uint window) {
+  return 0.5 * constants.set.depthStep + 3 / constants.set.windows[window].texelsPerMetre;
+}
 
-// On a plane that follows the receivers, corners that arrive nearer to another one, or nowhere, go to the surface on which the others
-// arrive: one beam may meet several receivers.
+// On a plane that follows the receivers, corners that arrive nearer to another one, or nowhere, go to the
+// surface on which the others arrive: one beam may meet several receivers.
 vec3 distancesNear(float low, float high, Ray rays[3], Arrival arrivals[3]) {
   bvec3 isWithin;
   vec4 surface = vec4(0);
@@ -147,7 +158,9 @@ vec3 distancesNear(float low, float high, Ray rays[3], Arrival arrivals[3]) {
     const float approach = -dot(surface.xyz, rays[i].direction);
     const float toSurface = (dot(surface.xyz, rays[i].start) - surface.w) / approach;
     const float toBand = distanceToDepth(rays[i], clamp(depth, low, high));
-    distances[i] = isWithin[i] ? arrivals[i].distance : approach > 1e-2 && toSurface >= 0 ? toSurface : max(toBand, 0);
+    distances[i] = isWithin[i]                         ? arrivals[i].distance
+                   : approach > 1e-2 && toSurface >= 0 ? toSurface
+                                                       : max(toBand, 0);
   }
   return distances;
 }
@@ -156,28 +169,36 @@ Crossing crossingOf(Ray rays[3], Arrival arrivals[3], uint plane, uint window) {
   const PlaneSet set = constants.set;
   const float depth = set.firstDepth + float(plane) * set.depthStep;
   if (kFollowsReceivers == 0)
-    return crossingAt(rays, vec3(distanceToDepth(rays[0], depth), distanceToDepth(rays[1], depth), distanceToDepth(rays[2], depth)));
+    return crossingAt(rays, vec3(distanceToDepth(rays[0], depth), distanceToDepth(rays[1], depth),
+                                 distanceToDepth(rays[2], depth)));
   // The first and the last plane have all that lies before and beyond.
   const float low = plane == 0 ? -1e30 : depth - reachOf(window);
   const float high = plane == set.planes - 1 ? 1e30 : depth + reachOf(window);
   return crossingAt(rays, distancesNear(low, high, rays, arrivals));
 }
 
-float least(vec3 v) { return min(min(v.x, v.y), v.z); }
-float most(vec3 v) { return max(max(v.x, v.y), v.z); }
+float least(vec3 v) {
+  return min(min(v.x, v.y), v.z);
+}
+float most(vec3 v) {
+  return max(max(v.x, v.y), v.z);
+}
 
 // The first plane that a beam leaves light on, and how many. `depths` are those of its arrival.
 uvec2 planesOf(vec3 depths, uint window) {
   const PlaneSet set = constants.set;
   const float last = float(set.planes - 1);
   if (kFollowsReceivers == 0 || set.depthStep == 0) return uvec2(0, set.planes);
-  const float first = clamp(ceil((least(depths) - reachOf(window) - set.firstDepth) / set.depthStep), 0, last);
-  return uvec2(first, clamp(floor((most(depths) + reachOf(window) - set.firstDepth) / set.depthStep), 0, last) - first + 1);
+  const float first =
+      clamp(ceil((least(depths) - reachOf(window) - set.firstDepth) / set.depthStep), 0, last);
+  return uvec2(
+      first,
+      clamp(floor((most(depths) + reachOf(window) - set.firstDepth) / set.depthStep), 0, last) - first + 1);
 }
 
-// Whether all that the outer window is asked for, on `planes`, lies off this beam: the inner one answers there, down to one and a
-// half of the outer one's texels from its borders. Corner rays are straight: what is inside on both of the outermost planes is so
-// between them.
+// Whether all that the outer window is asked for, on `planes`, lies off this beam: the inner one answers
+// there, down to one and a half of the outer one's texels from its borders. Corner rays are straight: what is
+// inside on both of the outermost planes is so between them.
 bool isInsideInnerWindow(Ray rays[3], Arrival arrivals[3], uvec2 planes) {
   const Window window = constants.set.windows[0];
   const float border = 1 + 2 * window.texelsPerMetre / constants.set.windows[1].texelsPerMetre;
@@ -192,7 +213,8 @@ bool isInsideInnerWindow(Ray rays[3], Arrival arrivals[3], uvec2 planes) {
   return isInside;
 }
 
-// What a beam leaves on a plane. Corners are as centerFootprint leaves them, in texels from `base`; of a line a and c are its ends.
+// What a beam leaves on a plane. Corners are as centerFootprint leaves them, in texels from `base`; of a line
+// a and c are its ends.
 struct Footprint {
   vec2 a, b, c;
   vec2 base;
@@ -226,25 +248,26 @@ Footprint footprintOf(vec2 a, vec2 b, vec2 c, float size) {
 
 // From the thread that found it to all.
 Footprint shuffled(Footprint print, uint thread) {
-  return Footprint(subgroupShuffle(print.a, thread), subgroupShuffle(print.b, thread), subgroupShuffle(print.c, thread),
-                   subgroupShuffle(print.base, thread), subgroupShuffle(print.lower, thread), subgroupShuffle(print.upper, thread),
+  return Footprint(subgroupShuffle(print.a, thread), subgroupShuffle(print.b, thread),
+                   subgroupShuffle(print.c, thread), subgroupShuffle(print.base, thread),
+                   subgroupShuffle(print.lower, thread), subgroupShuffle(print.upper, thread),
                    subgroupShuffle(print.slopes, thread), subgroupShuffle(print.perArea, thread));
 }
 
 // The texture of a plane, and the beam whose light it takes.
 struct Target {
-  uint layer;      // of the first channel
-  vec2 origin;     // of the texture in the layer, texels
+  uint layer;   // of the first channel
+  vec2 origin;  // of the texture in the layer, texels
   uint window;
   float fineness;  // of its texels, against those of the window
   vec3 units;      // of flux, by channel
-  vec3 along;      // the beam, m along the axes for each metre that it comes nearer to or farther from the plane
+  vec3 along;  // the beam, m along the axes for each metre that it comes nearer to or farther from the plane
 };
 
 Target shuffled(Target target, uint thread) {
-  return Target(subgroupShuffle(target.layer, thread), subgroupShuffle(target.origin, thread), subgroupShuffle(target.window, thread),
-                subgroupShuffle(target.fineness, thread), subgroupShuffle(target.units, thread),
-                subgroupShuffle(target.along, thread));
+  return Target(subgroupShuffle(target.layer, thread), subgroupShuffle(target.origin, thread),
+                subgroupShuffle(target.window, thread), subgroupShuffle(target.fineness, thread),
+                subgroupShuffle(target.units, thread), subgroupShuffle(target.along, thread));
 }
 
 // Whether a footprint, its corners in the window's texels, is wide and dim.
@@ -256,19 +279,23 @@ bool isForCoarsePart(vec2 a, vec2 b, vec2 c, float units, uint window) {
          units * texels * texels < 0.5 * kDimFootprint * kUnitsOfAllFlux * abs(doubledArea(a, b, c));
 }
 
-// Puts a part of the beam's flux on a texel of a flat plane, as the illuminance of what the virtual camera sees there; and as it is
-// on a plane that follows the receivers.
+// Puts a part of the beam's flux on a texel of a flat plane, as the illuminance of what the virtual camera
+// sees there; and as it is on a plane that follows the receivers.
 void add(vec2 texel, float part, Target target) {
   vec3 units = part * target.units;
   if (kFollowsReceivers == 0) {
-    const vec3 normal = unpackedNormal(texelFetch(seenNormals, ivec3((texel + 0.5) / target.fineness, target.window), 0).r);
+    const vec3 normal =
+        unpackedNormal(texelFetch(seenNormals, ivec3((texel + 0.5) / target.fineness, target.window), 0).r);
     // The beam's angle with the surface over that with the plane, as cosines.
-    units *= max(target.along.z * normal.z - dot(target.along.xy, normal.xy), 0) * inversesqrt(dot(normal, normal));
+    units *= max(target.along.z * normal.z - dot(target.along.xy, normal.xy), 0) *
+             inversesqrt(dot(normal, normal));
   }
   units += 0.5;
   for (uint c = 0; c < kChannels; ++c)
     if (units[c] >= 1.0)
-      imageAtomicAdd(textures, ivec3(texel + target.origin, target.layer + c * layersOfChannel(constants.set)), uint(units[c]));
+      imageAtomicAdd(textures,
+                     ivec3(texel + target.origin, target.layer + c * layersOfChannel(constants.set)),
+                     uint(units[c]));
 }
 
 // The threads at work in a subgroup stand in a block.
@@ -360,7 +387,8 @@ void main() {
     const uint plane = i < inner.y ? inner.x + i : outer.x + i - inner.y;
     const Crossing crossing = crossingOf(rays, arrivals, plane, target.window);
     const Window window = set.windows[target.window];
-    vec2 a = texelOfWindow(window, crossing.a.xy), b = texelOfWindow(window, crossing.b.xy), c = texelOfWindow(window, crossing.c.xy);
+    vec2 a = texelOfWindow(window, crossing.a.xy), b = texelOfWindow(window, crossing.b.xy),
+         c = texelOfWindow(window, crossing.c.xy);
     const uint texture = textureIndex(set, plane, target.window);
     const bool isCoarse = isForCoarsePart(a, b, c, most(target.units), target.window);
     target.layer = isCoarse ? coarseLayer(set, texture) : texture;

@@ -5,4 +5,6 @@
 layout(location = 0) in vec3 normal;
 layout(location = 0) out uint receiverNormal;  // toward the virtual camera
 
-void main() { receiverNormal = packedNormal(normal.z < 0 ? -normal : normal); }
+void main() {
+  receiverNormal = packedNormal(normal.z < 0 ? -normal : normal);
+}

@@ -1,12 +1,15 @@
-// Adds the light of one set of planes to the receiver points where the virtual camera sees them: blended from the two planes
-// around each point (Iwasaki 2005b, 4.3), or from the nearer one where planes follow the receivers.
+// Adds the light of one set of planes to the receiver points where the virtual camera sees them: blended from
+// the two planes around each point (Iwasaki 2005b, 4.3), or from the nearer one where planes follow the
+// receivers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "techniques/planes/shader_data.h"
 
 layout(constant_id = 0) const uint kChannels = 3;
 layout(constant_id = 1) const uint kFollowsReceivers = 1;
-layout(push_constant, scalar) uniform Constants { ShadeConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  ShadeConstants constants;
+};
 layout(rgba32f) uniform readonly image2D receiverPosition;
 layout(rgba32f) uniform readonly image2D receiverNormal;
 uniform sampler2DArray seenDepths;  // by the virtual camera, a layer a window
@@ -61,19 +64,22 @@ void main() {
     place = clamp(place, vec2(0), vec2(last - 1e-3));
   }
   const float depth = dot(point.xyz, set.axisW);
-  float between = set.depthStep > 0 ? clamp((depth - set.firstDepth) / set.depthStep, 0, float(set.planes - 1)) : 0;
+  float between =
+      set.depthStep > 0 ? clamp((depth - set.firstDepth) / set.depthStep, 0, float(set.planes - 1)) : 0;
   if (kFollowsReceivers != 0) between = floor(between + 0.5);
   const uint nearer = min(uint(between), set.planes - 1);
   const uint farther = min(nearer + 1, set.planes - 1);
 
-  const uint nearerTexture = textureIndex(set, nearer, window), fartherTexture = textureIndex(set, farther, window);
+  const uint nearerTexture = textureIndex(set, nearer, window),
+             fartherTexture = textureIndex(set, farther, window);
   const vec2 corner = floor(place);
   Units units = unitsAround(nearerTexture, corner);
   vec3 coarse = coarseUnitsAt(nearerTexture, last + 1, place);
   if (kFollowsReceivers == 0) {
     const float part = between - float(nearer);
     const Units beyond = unitsAround(fartherTexture, corner);
-    for (uint c = 0; c < kChannels; ++c) units.channel[c] = mix(units.channel[c], beyond.channel[c], vec4(part));
+    for (uint c = 0; c < kChannels; ++c)
+      units.channel[c] = mix(units.channel[c], beyond.channel[c], vec4(part));
     coarse = mix(coarse, coarseUnitsAt(fartherTexture, last + 1, place), part);
   }
 
@@ -81,18 +87,21 @@ void main() {
   const vec3 normal = imageLoad(receiverNormal, pixel).xyz;
   const float cosine = -dot(normal, set.axisW);
   if (cosine <= 0) return;
-  // A texel's own slope, and half a texel of its neighbour's, may part a point from what the virtual camera saw.
+  // A texel's own slope, and half a texel of its neighbour's, may part a point from what the virtual camera
+  // saw.
   const float slope = sqrt(max(1 - cosine * cosine, 0)) / max(cosine, 0.05);
   const float depthRange = set.farthestDepth - set.nearestDepth;
   const float tolerance = 2.0 * slope / set.windows[window].texelsPerMetre + 1e-4 * depthRange;
   const float nearestSeen = (depth - tolerance - set.nearestDepth) / depthRange;
   // 1 where the virtual camera sees nothing.
   const vec4 seen = textureGather(seenDepths, vec3((corner + 1) / constants.textureSize, window));
-  const vec4 weights = bilinearWeights(place - corner) * vec4(greaterThanEqual(seen, vec4(min(nearestSeen, 1))));
+  const vec4 weights =
+      bilinearWeights(place - corner) * vec4(greaterThanEqual(seen, vec4(min(nearestSeen, 1))));
   vec3 sum = coarse * dot(weights, vec4(1));
   for (uint c = 0; c < 3; ++c) sum[c] += dot(weights, units.channel[min(c, kChannels - 1)]);
   const float texels = set.windows[window].texelsPerMetre;
-  // What follows the receivers was left by flux; a texel's square metres on the surface are those across the axis over the cosine.
+  // What follows the receivers was left by flux; a texel's square metres on the surface are those across the
+  // axis over the cosine.
   if (kFollowsReceivers != 0) sum *= cosine;
   causticsLux = vec4(sum * set.luxMetresSquaredPerUnit * (texels * texels), 0);
 }

@@ -5,7 +5,9 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "techniques/show_data.h"
 
-layout(push_constant, scalar) uniform Constants { ShowConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  ShowConstants constants;
+};
 uniform texture2D image;
 layout(location = 0) out vec4 picture;
 
