@@ -1,10 +1,8 @@
 #include "render/frame.h"
 
 #include <algorithm>
-#include <glm/gtc/constants.hpp>
 
 #include "core/stopwatch.h"
-#include "gpu/transfer.h"
 #include "render/frame_data.h"
 #include "scene/volume.h"
 
@@ -108,49 +106,6 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
   return summedByName(passes);
 }
 
-void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
-  const auto onDevice = [&](const std::function<void(gpu::CommandList&)>& record) {
-    const std::vector<PassTime> some = device_.submitAndWait(record);
-    passes.insert(passes.end(), some.begin(), some.end());
-  };
-  onDevice([&](gpu::CommandList& commands) {
-    if (remade.shadowMaps)
-      commands.pass("shadow maps", [&] { directLight_.recordShadowMaps(commands, gpuScene_); });
-    if (remade.beams) technique_.record(commands, gpuScene_);
-    if (shafts_) commands.pass("depths of the air", [&] { shafts_.recordDepths(commands); });
-    if (remade.sight) {
-      commands.pass("receivers", [&] { drawReceivers(commands); });
-      sight_.record(commands, gpuScene_, images_);
-    }
-    if (!shafts_) illuminate(commands);
-  });
-  if (!shafts_) return;
-  onHost(passes, "planes in the air", [&] { shafts_.choosePlanes(directLight_, gpuScene_, images_.depth); });
-  onDevice([&](gpu::CommandList& commands) { illuminate(commands); });
-}
-
-// What the frame has found is lit, and put together.
-void Renderer::illuminate(gpu::CommandList& commands) {
-  if (hasTurbidWater_) {
-    commands.clear(images_.wayStart, vec4(0));
-    commands.clear(images_.scattered, vec4(0));
-  }
-  light(commands, images_.seen[kSeen], std::nullopt);
-  if (sight_.reflects()) light(commands, images_.seen[kSeenReflected], sight_.region());
-  if (sight_.disperses())
-    for (const uint32_t channel : {kSeenGreen, kSeenBlue})
-      light(commands, images_.seen[channel], sight_.region());
-  for (const WaterInSight& water : sight_.waters()) {
-    commands.pass("ways in water", [&] {
-      sight_.recordWays(commands, water, images_, images_.wayStart, images_.wayDirection);
-    });
-    technique_.scatter(commands, {&images_.wayStart, &images_.wayDirection, water.object}, images_.scattered);
-  }
-  if (shafts_)
-    commands.pass("shafts", [&] { shafts_.record(commands, directLight_, gpuScene_, images_.depth); });
-  commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}); });
-}
-
 void Renderer::place(const Scene& scene) {
   view_ = viewOf(scene.camera, settings_.size);
   shafts_.update(scene, view_);
@@ -187,6 +142,27 @@ void Renderer::ensureImages() {
       *image = gpu::createImage(device_, "light in water", {.width = size.x, .height = size.y});
 }
 
+void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
+  const auto onDevice = [&](const std::function<void(gpu::CommandList&)>& record) {
+    const std::vector<PassTime> some = device_.submitAndWait(record);
+    passes.insert(passes.end(), some.begin(), some.end());
+  };
+  onDevice([&](gpu::CommandList& commands) {
+    if (remade.shadowMaps)
+      commands.pass("shadow maps", [&] { directLight_.recordShadowMaps(commands, gpuScene_); });
+    if (remade.beams) technique_.record(commands, gpuScene_);
+    if (shafts_) commands.pass("depths of the air", [&] { shafts_.recordDepths(commands); });
+    if (remade.sight) {
+      commands.pass("receivers", [&] { drawReceivers(commands); });
+      sight_.record(commands, gpuScene_, images_);
+    }
+    if (!shafts_) illuminate(commands);
+  });
+  if (!shafts_) return;
+  onHost(passes, "planes in the air", [&] { shafts_.choosePlanes(directLight_, gpuScene_, images_.depth); });
+  onDevice([&](gpu::CommandList& commands) { illuminate(commands); });
+}
+
 void Renderer::drawReceivers(gpu::CommandList& commands) {
   const vec4 nothing(0);
   const SeenImages& seen = images_.seen[kSeen];
@@ -203,6 +179,28 @@ void Renderer::drawReceivers(gpu::CommandList& commands) {
                                  {{"colorTexture", *draw.colorTexture, gpuScene_.textureSampler()}});
         }
       });
+}
+
+// What the frame has found is lit, and put together.
+void Renderer::illuminate(gpu::CommandList& commands) {
+  if (hasTurbidWater_) {
+    commands.clear(images_.wayStart, vec4(0));
+    commands.clear(images_.scattered, vec4(0));
+  }
+  light(commands, images_.seen[kSeen], std::nullopt);
+  if (sight_.reflects()) light(commands, images_.seen[kSeenReflected], sight_.region());
+  if (sight_.disperses())
+    for (const uint32_t channel : {kSeenGreen, kSeenBlue})
+      light(commands, images_.seen[channel], sight_.region());
+  for (const WaterInSight& water : sight_.waters()) {
+    commands.pass("ways in water", [&] {
+      sight_.recordWays(commands, water, images_, images_.wayStart, images_.wayDirection);
+    });
+    technique_.scatter(commands, {&images_.wayStart, &images_.wayDirection, water.object}, images_.scattered);
+  }
+  if (shafts_)
+    commands.pass("shafts", [&] { shafts_.record(commands, directLight_, gpuScene_, images_.depth); });
+  commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}); });
 }
 
 void Renderer::light(gpu::CommandList& commands, const SeenImages& seen,
@@ -249,96 +247,6 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
   if (sight_.region().size.x == 0) return;
   commands.barrier();
   draw({true, sight_.reflects() || sight_.disperses(), sight_.disperses()}, sight_.region());
-}
-
-ByteImage Renderer::picture() const {
-  const auto texels = gpu::download<std::array<uint8_t, 4>>(device_, images_.picture);
-  ByteImage picture{settings_.size.x, settings_.size.y, 3, {}};
-  picture.bytes.reserve(3 * texels.size());
-  for (const auto& texel : texels)
-    picture.bytes.insert(picture.bytes.end(), texel.begin(), texel.begin() + 3);
-  return picture;
-}
-
-std::vector<PassOutput> Renderer::outputs() const {
-  const float exposure = exposure_ / glm::pi<float>();  // of lux, as white paper shows them
-  const SeenImages& seen = images_.seen[kSeen];
-  std::vector<PassOutput> all;
-  for (const gpu::Image* map : directLight_.shadowMaps())
-    all.push_back({"shadow maps", "depths from a light", map, kShowDepth});
-  for (const PassOutput& output : technique_.outputs()) all.push_back(output);
-  all.insert(all.end(), {{"receivers", "albedo", &seen.albedo, kShowFactor},
-                         {"receivers", "normals", &seen.normal, kShowDirection},
-                         {"receivers", "positions", &seen.position, kShowPlace},
-                         {"receivers", "depth", &images_.depth, kShowNearness}});
-  if (sight_.region().size.x > 0)
-    all.insert(all.end(), {{"casters", "normals", &images_.casterNormal, kShowDirection},
-                           {"seen through casters", "transmittance", &seen.transmittance, kShowFactor}});
-  if (sight_.reflects())
-    all.insert(all.end(),
-               {{"reflected by casters", "albedo", &images_.seen[kSeenReflected].albedo, kShowFactor},
-                {"reflected by casters", "normals", &images_.seen[kSeenReflected].normal, kShowDirection}});
-  all.insert(all.end(), {{"direct light", "lux", &seen.directLux, kShowLight, exposure},
-                         {"caustics", "lux", &seen.causticsLux, kShowLight, exposure}});
-  if (hasTurbidWater_)
-    all.push_back({"light in water", "luminance", &images_.scattered, kShowLight, exposure_});
-  if (shafts_) all.push_back({"shafts", "luminance", &shafts_.image(), kShowLight, exposure_});
-  all.push_back({"composite", "picture", &images_.picture, kShowPicture});
-  return all;
-}
-
-namespace {
-
-void writeChannels(Image& layers, const std::string& prefix, std::string_view names,
-                   const std::vector<vec4>& texels) {
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    std::vector<float>& values = layers.channel(prefix + names[c]);
-    for (std::size_t i = 0; i < texels.size(); ++i) values[i] = texels[i][static_cast<int>(c)];
-  }
-}
-
-}  // namespace
-
-std::vector<vec4> Renderer::shaftsLuminance() const {
-  const std::size_t pixels = std::size_t{settings_.size.x} * settings_.size.y;
-  std::vector<vec4> luminance =
-      shafts_ ? gpu::download<vec4>(device_, shafts_.image()) : std::vector<vec4>(pixels, vec4(0, 0, 0, 1));
-  if (!hasTurbidWater_) return luminance;
-  const auto inWater = gpu::download<vec4>(device_, images_.scattered);
-  for (std::size_t i = 0; i < pixels; ++i) luminance[i] += luminance[i].a * inWater[i];
-  return luminance;
-}
-
-Image Renderer::layers() {
-  device_.submitAndWait([&](gpu::CommandList& commands) {
-    commands.pass("layers", [&] {
-      composite(commands, programs_.layers,
-                {&images_.luminance, &images_.directLuminance, &images_.causticsLuminance});
-    });
-  });
-  Image layers;
-  layers.width = settings_.size.x;
-  layers.height = settings_.size.y;
-  writeChannels(layers, "", "RGB", gpu::download<vec4>(device_, images_.luminance));
-  writeChannels(layers, "direct.", "RGB", gpu::download<vec4>(device_, images_.directLuminance));
-  writeChannels(layers, "caustics.", "RGB", gpu::download<vec4>(device_, images_.causticsLuminance));
-  writeChannels(layers, "shafts.", "RGB", shaftsLuminance());
-
-  auto normals = gpu::download<vec4>(device_, images_.seen[kSeen].normal);
-  const auto casterNormals = gpu::download<vec4>(device_, images_.casterNormal);
-  const gpu::Region& region = sight_.region();
-  const uvec2 first(region.corner);
-  for (uint32_t y = first.y; y < first.y + region.size.y; ++y)
-    for (uint32_t x = first.x; x < first.x + region.size.x; ++x) {
-      const std::size_t i = std::size_t{y} * settings_.size.x + x;
-      if (casterNormals[i].a != 0) normals[i] = casterNormals[i];
-    }
-  std::vector<vec4> depths;
-  for (const float depth : gpu::download<float>(device_, images_.depth))
-    depths.emplace_back(depth > 0 ? view_.nearest / depth : 0.0f);
-  writeChannels(layers, "depth.", "Z", depths);
-  writeChannels(layers, "normal.", "XYZ", normals);
-  return layers;
 }
 
 }  // namespace nephroid

@@ -1,0 +1,100 @@
+// What a frame leaves behind, for files and for looking into its passes.
+#include <array>
+#include <glm/gtc/constants.hpp>
+#include <string_view>
+
+#include "gpu/transfer.h"
+#include "render/frame.h"
+
+namespace nephroid {
+namespace {
+
+void writeChannels(Image& layers, const std::string& prefix, std::string_view names,
+                   const std::vector<vec4>& texels) {
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    std::vector<float>& values = layers.channel(prefix + names[c]);
+    for (std::size_t i = 0; i < texels.size(); ++i) values[i] = texels[i][static_cast<int>(c)];
+  }
+}
+
+}  // namespace
+
+ByteImage Renderer::picture() const {
+  const auto texels = gpu::download<std::array<uint8_t, 4>>(device_, images_.picture);
+  ByteImage picture{settings_.size.x, settings_.size.y, 3, {}};
+  picture.bytes.reserve(3 * texels.size());
+  for (const auto& texel : texels)
+    picture.bytes.insert(picture.bytes.end(), texel.begin(), texel.begin() + 3);
+  return picture;
+}
+
+std::vector<PassOutput> Renderer::outputs() const {
+  const float exposure = exposure_ / glm::pi<float>();  // of lux, as white paper shows them
+  const SeenImages& seen = images_.seen[kSeen];
+  std::vector<PassOutput> all;
+  for (const gpu::Image* map : directLight_.shadowMaps())
+    all.push_back({"shadow maps", "depths from a light", map, kShowDepth});
+  for (const PassOutput& output : technique_.outputs()) all.push_back(output);
+  all.insert(all.end(), {{"receivers", "albedo", &seen.albedo, kShowFactor},
+                         {"receivers", "normals", &seen.normal, kShowDirection},
+                         {"receivers", "positions", &seen.position, kShowPlace},
+                         {"receivers", "depth", &images_.depth, kShowNearness}});
+  if (sight_.region().size.x > 0)
+    all.insert(all.end(), {{"casters", "normals", &images_.casterNormal, kShowDirection},
+                           {"seen through casters", "transmittance", &seen.transmittance, kShowFactor}});
+  if (sight_.reflects())
+    all.insert(all.end(),
+               {{"reflected by casters", "albedo", &images_.seen[kSeenReflected].albedo, kShowFactor},
+                {"reflected by casters", "normals", &images_.seen[kSeenReflected].normal, kShowDirection}});
+  all.insert(all.end(), {{"direct light", "lux", &seen.directLux, kShowLight, exposure},
+                         {"caustics", "lux", &seen.causticsLux, kShowLight, exposure}});
+  if (hasTurbidWater_)
+    all.push_back({"light in water", "luminance", &images_.scattered, kShowLight, exposure_});
+  if (shafts_) all.push_back({"shafts", "luminance", &shafts_.image(), kShowLight, exposure_});
+  all.push_back({"composite", "picture", &images_.picture, kShowPicture});
+  return all;
+}
+
+std::vector<vec4> Renderer::shaftsLuminance() const {
+  const std::size_t pixels = std::size_t{settings_.size.x} * settings_.size.y;
+  std::vector<vec4> luminance =
+      shafts_ ? gpu::download<vec4>(device_, shafts_.image()) : std::vector<vec4>(pixels, vec4(0, 0, 0, 1));
+  if (!hasTurbidWater_) return luminance;
+  const auto inWater = gpu::download<vec4>(device_, images_.scattered);
+  for (std::size_t i = 0; i < pixels; ++i) luminance[i] += luminance[i].a * inWater[i];
+  return luminance;
+}
+
+Image Renderer::layers() {
+  device_.submitAndWait([&](gpu::CommandList& commands) {
+    commands.pass("layers", [&] {
+      composite(commands, programs_.layers,
+                {&images_.luminance, &images_.directLuminance, &images_.causticsLuminance});
+    });
+  });
+  Image layers;
+  layers.width = settings_.size.x;
+  layers.height = settings_.size.y;
+  writeChannels(layers, "", "RGB", gpu::download<vec4>(device_, images_.luminance));
+  writeChannels(layers, "direct.", "RGB", gpu::download<vec4>(device_, images_.directLuminance));
+  writeChannels(layers, "caustics.", "RGB", gpu::download<vec4>(device_, images_.causticsLuminance));
+  writeChannels(layers, "shafts.", "RGB", shaftsLuminance());
+
+  auto normals = gpu::download<vec4>(device_, images_.seen[kSeen].normal);
+  const auto casterNormals = gpu::download<vec4>(device_, images_.casterNormal);
+  const gpu::Region& region = sight_.region();
+  const uvec2 first(region.corner);
+  for (uint32_t y = first.y; y < first.y + region.size.y; ++y)
+    for (uint32_t x = first.x; x < first.x + region.size.x; ++x) {
+      const std::size_t i = std::size_t{y} * settings_.size.x + x;
+      if (casterNormals[i].a != 0) normals[i] = casterNormals[i];
+    }
+  std::vector<vec4> depths;
+  for (const float depth : gpu::download<float>(device_, images_.depth))
+    depths.emplace_back(depth > 0 ? view_.nearest / depth : 0.0f);
+  writeChannels(layers, "depth.", "Z", depths);
+  writeChannels(layers, "normal.", "XYZ", normals);
+  return layers;
+}
+
+}  // namespace nephroid
