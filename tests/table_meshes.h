@@ -13,6 +13,7 @@ inline constexpr float kPi = std::numbers::pi_v<float>;
 
 // A ball around `centre` of (rings + 1) (2 rings + 1) vertices with exact normals, added to `mesh`.
 inline void addBall(Mesh& mesh, vec3 centre, float radius, uint32_t rings) {
+  mesh.isFinished = true;
   const auto first = static_cast<uint32_t>(mesh.positions.size());
   const uint32_t row = 2 * rings + 1;
   for (uint32_t i = 0; i <= rings; ++i) {

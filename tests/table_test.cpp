@@ -328,6 +328,7 @@ TEST(TableBuild, TakesAFlatMesh) {
   mesh.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
   mesh.normals = {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};
+  mesh.isFinished = true;
   const OutgoingRay ray = lookUp(tracedTable(mesh, 9), 1, {0, 0, -1});
   EXPECT_TRUE(std::isfinite(ray.position.x + ray.direction.x + ray.pathLength + ray.transmittance.x));
 }

@@ -13,6 +13,7 @@ inline Mesh plane(float halfSize) {
   mesh.normals.assign(4, vec3(0, 1, 0));
   mesh.texcoords = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.isFinished = true;
   return mesh;
 }
 
@@ -32,7 +33,7 @@ inline Mesh box(vec3 halfSize) {
       mesh.triangles.push_back({first, first + 1, first + 2});
       mesh.triangles.push_back({first, first + 2, first + 3});
     }
-  mesh.isClosed = true;
+  mesh.isClosed = mesh.isFinished = true;
   return mesh;
 }
 

@@ -10,7 +10,6 @@ namespace nephroid {
 namespace {
 
 constexpr std::uintmax_t kLargestSceneFile = std::uintmax_t{64} << 20;  // bytes
-constexpr double kLargestSensorSide = 16384;                            // texels
 constexpr double kLargestSensor = 1 << 26;                              // texels
 
 std::optional<TomlTable> section(const toml::table& root, TomlTable& top, const std::string& key,

@@ -29,7 +29,7 @@ std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene, W
 quat rotationOf(vec3 degrees);
 
 // Of a dielectric.
-inline constexpr Range kIor{0.1, 10};
+inline constexpr Range kIor{kLowestIor, kHighestIor};
 inline constexpr Range kAbbe{1, 10000};
 
 // The mesh of an [[object]] that has a `shape`; sets object.water for water.

@@ -14,8 +14,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kMostLineSamples = 4096;
-constexpr double kMostAreaSamples = 64;  // along a side
 constexpr Range kSkySamples{2, 4096};
 constexpr int64_t kDefaultSkySamples = 64;
 constexpr const char* kGoboPrefix = "gobo ";  // no imported texture is taken for one

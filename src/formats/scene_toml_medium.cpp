@@ -67,7 +67,7 @@ void addFog(const Medium& medium, DensityGrid& grid) {
 void readPhase(TomlTable& table, PhaseType& phase, float& g) {
   constexpr std::array kTypes{PhaseType::isotropic, PhaseType::henyeyGreenstein, PhaseType::nishita};
   phase = kTypes[table.choice("phase", {"isotropic", "henyey-greenstein", "nishita"})];
-  if (phase == PhaseType::henyeyGreenstein) g = numberOr(table, "g", {-0.999, 0.999}, 0);
+  if (phase == PhaseType::henyeyGreenstein) g = numberOr(table, "g", {-kLargestG, kLargestG}, 0);
 }
 
 Medium readMedium(TomlTable table, const std::filesystem::path& folder) {

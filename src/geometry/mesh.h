@@ -18,6 +18,7 @@ struct Mesh {
   std::vector<uvec3> triangles;
   bool isClosed = false;          // every edge has two faces after joining equal positions
   uint32_t droppedTriangles = 0;  // triangles without an area, left out when the mesh was made
+  bool isFinished = false;        // finishMesh has made it ready, as all meshes of a scene have to be
   // The surface bends between vertices as their normals say (shapes); otherwise its triangles are flat.
   bool isCurved = false;
   // The part of the surface that is of flat facets: all of a box's or a cut gem's, the ends of a cylinder's.

@@ -42,8 +42,6 @@ VertexKey keyOf(const Mesh& mesh, std::size_t i) {
   return key;
 }
 
-constexpr float kLargestCoordinate = 1e9f;  // m; squares and areas beyond it leave single precision
-
 bool isFinite(vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -80,6 +78,23 @@ void requireUsable(const Mesh& mesh, const std::string& source) {
                        std::to_string(mesh.positions.size()));
     }
   }
+}
+
+void requireFinished(const Mesh& mesh, const std::string& source) {
+  constexpr float kUnitTolerance = 1e-3f;
+  if (!mesh.isFinished) throw InputError(source + ": the mesh is not finished; call finishMesh");
+  if (mesh.normals.size() != mesh.positions.size())
+    throw InputError(source + ": " + std::to_string(mesh.normals.size()) + " normals for " +
+                     std::to_string(mesh.positions.size()) + " vertices; each vertex must have one");
+  if (!mesh.texcoords.empty() && mesh.texcoords.size() != mesh.positions.size())
+    throw InputError(source + ": " + std::to_string(mesh.texcoords.size()) + " texture coordinates for " +
+                     std::to_string(mesh.positions.size()) + " vertices; each vertex must have one, or none");
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i)
+    if (!(std::abs(glm::length(mesh.normals[i]) - 1) <= kUnitTolerance))
+      throw InputError(source + ": the normal of vertex " + std::to_string(i) + " is not of length 1");
+  for (std::size_t i = 0; i < mesh.texcoords.size(); ++i)
+    if (!std::isfinite(mesh.texcoords[i].x) || !std::isfinite(mesh.texcoords[i].y))
+      throw InputError(source + ": the texture coordinate of vertex " + std::to_string(i) + " is not finite");
 }
 
 bool hasUsableNormals(const Mesh& mesh) {
@@ -196,6 +211,11 @@ std::pair<vec3, vec3> boundingBox(const Mesh& mesh) {
   return {lower, upper};
 }
 
+void checkMesh(const Mesh& mesh, const std::string& source) {
+  requireUsable(mesh, source);
+  requireFinished(mesh, source);
+}
+
 void finishMesh(Mesh& mesh, const std::string& source) {
   requireUsable(mesh, source);
   if (!hasUsableNormals(mesh)) mesh.normals.clear();
@@ -210,6 +230,7 @@ void finishMesh(Mesh& mesh, const std::string& source) {
   mergeEqualVertices(mesh);
   if (mesh.normals.empty()) averageNormals(mesh);
   mesh.facetedPart = facetedPart(mesh);
+  mesh.isFinished = true;
 }
 
 }  // namespace nephroid

@@ -10,6 +10,9 @@
 
 namespace nephroid {
 
+// m from the origin, of anything; squares and areas beyond it leave single precision.
+inline constexpr float kLargestCoordinate = 1e9f;
+
 struct MeshTopology {
   uint32_t boundaryEdges = 0;     // edges with one face, after joining equal positions
   uint32_t nonManifoldEdges = 0;  // edges with more than two
@@ -34,5 +37,9 @@ std::pair<vec3, vec3> boundingBox(const Mesh& mesh);
 // the faces at equal positions where `normals` does not hold a usable one for every vertex. Throws InputError
 // beginning with `source`.
 void finishMesh(Mesh& mesh, const std::string& source);
+
+// Throws InputError beginning with `source` where a mesh is not as finishMesh leaves it: indices in range,
+// lists as long as each other, positions finite, normals unit.
+void checkMesh(const Mesh& mesh, const std::string& source);
 
 }  // namespace nephroid

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "reference/direct.h"
+#include "scene/checks.h"
 
 namespace nephroid {
 namespace {
@@ -79,7 +80,9 @@ ReferenceSensor::ReferenceSensor(const Scene& sceneToMeasure, const RayScene& ra
               .top()),
       total(std::size_t(sensor.resolution.x) * sensor.resolution.y),
       direct(total),
-      caustics(total) {}
+      caustics(total) {
+  checkSensor(sensor);
+}
 
 void ReferenceSensor::pass() {
   const std::vector<vec3> fromCasters = countPhotons();

@@ -92,8 +92,8 @@ void Renderer::resize(uvec2 size) {
 
 std::vector<PassTime> Renderer::render(const Scene& scene) {
   std::vector<PassTime> passes;
-  const Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.followsCamera());
   onHost(passes, "placement", [&] { place(scene); });
+  const Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.followsCamera());
   onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_, shafts_.lightsInAir()); });
   if (remade.beams) onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
   if (remade.sight)
@@ -107,11 +107,11 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
 }
 
 void Renderer::place(const Scene& scene) {
+  transport_.place(scene);
   view_ = viewOf(scene.camera, settings_.size);
   shafts_.update(scene, view_);
   environment_ = scene.environment;
   exposure_ = scene.camera.exposure;
-  transport_.place(scene);
   gpuScene_.place(scene);
   surfaces_.clear();
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "lights/emitters.h"
 #include "lights/light_in_air.h"
 #include "lights/light_intensity.h"
+#include "scene/checks.h"
 #include "transport/queries.h"
 
 namespace nephroid {
@@ -43,6 +44,7 @@ void addChannels(Image& image, const std::string& prefix, const SensorLayer& lay
 
 SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor,
                           Progress& progress) {
+  checkSensor(sensor);
   const std::vector<Emitter> emitters = emittersOf(scene);
   const std::vector<ShapedLight> lights = shapedLights(scene);
   const vec3 normal = sensor.normal();
@@ -69,6 +71,7 @@ SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor
 SensorLayer measureBeams(const Scene& scene, const RayScene& rays, const TransportSource& source,
                          const Sensor& sensor, Paths paths, uint32_t refineDepth, Progress& progress,
                          Stats& stats) {
+  checkSensor(sensor);
   const TracedSource media(scene, rays);
   const PlaneGrid grid = gridOf(sensor);
   BeamSettings settings;

@@ -2,6 +2,7 @@
 
 #include "gpu/command_list.h"
 #include "gpu/transfer.h"
+#include "scene/checks.h"
 
 namespace nephroid {
 namespace {
@@ -18,12 +19,15 @@ uint32_t pointsAlongTexel(const Technique& technique) {
 // The scene and a diffuse quad on the sensor, since techniques light receivers; and a camera that looks at it
 // along the sensor's normal, for those that ask where receivers are seen from.
 Scene withReceiver(Scene scene, const Sensor& sensor) {
+  checkScene(scene);
+  checkSensor(sensor);
   Mesh quad;
   quad.name = sensor.name;
   quad.positions = {sensor.corner, sensor.corner + sensor.v, sensor.corner + sensor.v + sensor.u,
                     sensor.corner + sensor.u};
   quad.normals.assign(4, sensor.normal());
   quad.triangles = {{0, 1, 2}, {0, 2, 3}};
+  quad.isFinished = true;
   Object object;
   object.name = sensor.name;
   object.mesh = uint32_t(scene.meshes.size());
@@ -94,8 +98,8 @@ void TechniqueMeter::addShaded(SensorLayer& layer) {
 }
 
 SensorLayer TechniqueMeter::read() {
-  gpuScene.place(scene);
   transport.place(scene);
+  gpuScene.place(scene);
   technique->update(gpuScene);
   SensorLayer layer;
   const uint32_t passes = technique->coversSquares() ? 1 : kPasses;

@@ -6,6 +6,7 @@
 
 #include "geometry/mesh_checks.h"
 #include "lights/light_intensity.h"
+#include "scene/checks.h"
 #include "scene/framing.h"
 
 namespace nephroid {
@@ -180,6 +181,7 @@ bool reaches(const Light& light, vec3 centre, float radius) {
 }
 
 SceneReport diagnose(const Scene& scene) {
+  checkScene(scene);
   SceneReport report;
   report.objects = scene.objects.size();
   report.materials = scene.materials.size();

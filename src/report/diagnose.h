@@ -26,6 +26,7 @@ struct SceneReport {
   std::vector<std::string> warnings;        // about the whole scene
 };
 
+// Throws InputError as checkScene does.
 SceneReport diagnose(const Scene& scene);
 
 // The report as lines of text for a reader.

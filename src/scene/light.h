@@ -9,6 +9,9 @@
 
 namespace nephroid {
 
+inline constexpr uint32_t kMostLineSamples = 4096;
+inline constexpr uint32_t kMostAreaSamples = 64;  // along a side
+
 enum class LightType { directional, point, spot, line, area, sky };
 
 // Light from all around, infinitely far away: cells of equal angles. The middle of the map is toward -z, its

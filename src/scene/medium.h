@@ -10,6 +10,7 @@
 namespace nephroid {
 
 enum class PhaseType { isotropic, henyeyGreenstein, nishita };
+inline constexpr double kLargestG = 0.999;  // of Henyey-Greenstein, forward or back
 
 // How dense the air is in a box, as a part of the most there may be: linear between the middles of its cells,
 // and 0 outside.

@@ -41,6 +41,9 @@ struct Texture {
   std::vector<vec4> texels;
 };
 
+// Of an index of refraction.
+inline constexpr double kLowestIor = 0.1, kHighestIor = 10;
+
 enum class MaterialType { diffuse, dielectric, mirror };
 
 struct Material {
@@ -71,6 +74,8 @@ struct Object {
   Placement placement;
   std::optional<Water> water;
 };
+
+inline constexpr uint32_t kLargestSensorSide = 16384;  // texels
 
 // An illuminance meter. Texel (column i, row j) spans u (i..i+1)/width and v (j..j+1)/height from `corner`;
 // faces cross(v, u).

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "scene/checks.h"
 #include "transport/table/table_file.h"
 #include "transport/table/table_source.h"
 
@@ -76,6 +77,7 @@ SceneTransport::SceneTransport(const Scene& scene, const TechniqueSettings& sett
       makeSource(std::move(maker)) {}
 
 void SceneTransport::place(const Scene& scene) {
+  checkMoved(scene, now);
   now.time = scene.time;
   now.camera = scene.camera;
   now.objects = scene.objects;

@@ -30,11 +30,12 @@ class SceneTransport {
   using SourceMaker = std::function<std::unique_ptr<TransportSource>(const Scene&, const TracedSource&)>;
 
   // Settings and progress must outlive it. With `maker` the source is that one's, whatever the settings say.
+  // Throws InputError as checkScene does.
   SceneTransport(const Scene& scene, const TechniqueSettings& settings, Progress& progress,
                  SourceMaker maker = {});
 
   // Moves all to where `scene` has it, with the objects and meshes that this was made with; water may have
-  // another shape.
+  // another shape. Throws InputError as checkMoved does, and then moves nothing.
   void place(const Scene& scene);
 
   const Scene& scene() const { return now; }

@@ -8,6 +8,8 @@
 #include "core/error.h"
 #include "core/index_range.h"
 #include "geometry/curved_triangle.h"
+#include "geometry/mesh_checks.h"
+#include "scene/checks.h"
 #include "trace/smooth_patches.h"
 
 #if __has_include(<embree4/rtcore.h>)
@@ -233,12 +235,14 @@ struct RayScene::Impl {
 };
 
 RayScene::RayScene(const Mesh& mesh) : impl(std::make_unique<Impl>()) {
+  checkMesh(mesh, "mesh \"" + mesh.name + "\"");
   impl->addMesh(mesh);
   impl->objects.emplace_back(0, Placement{});
   impl->updateExtent();
 }
 
 RayScene::RayScene(const Scene& scene) : impl(std::make_unique<Impl>()) {
+  checkScene(scene);
   for (const Mesh& mesh : scene.meshes) impl->addMesh(mesh);
   impl->top.reset(rtcNewScene(impl->device.get()));
   rtcSetSceneFlags(impl->top.get(), RTC_SCENE_FLAG_ROBUST);

@@ -33,9 +33,9 @@ struct Hit {
 // Immutable but for placements and shapes; safe to trace from many threads.
 class RayScene {
  public:
-  // One mesh in its own space, as object 0. The mesh must outlive this.
+  // One mesh in its own space, as object 0. The mesh must outlive this. Throws InputError as checkMesh does.
   explicit RayScene(const Mesh& mesh);
-  // All objects of a scene. The scene's meshes must outlive this.
+  // All objects of a scene. The scene's meshes must outlive this. Throws InputError as checkScene does.
   explicit RayScene(const Scene& scene);
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;

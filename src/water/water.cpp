@@ -112,6 +112,7 @@ Mesh makeWater(const Water& water, double time, WaveRun* run) {
       mesh.triangles.emplace_back(b, d, c);
     }
   }
+  mesh.isFinished = true;
   mesh.isCurved = true;
   return mesh;
 }
