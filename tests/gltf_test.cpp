@@ -7,6 +7,7 @@
 #include "formats/load.h"
 #include "formats/save_scene.h"
 #include "formats/scene_toml.h"
+#include "geometry/bounds.h"
 #include "geometry/mesh_checks.h"
 #include "report/diagnose.h"
 #include "scratch_files.h"
@@ -274,7 +275,7 @@ TEST_F(Gltf, AnImportComesUnderTheObjectsTransform) {
                                          "[[material]]\nname = \"m\"\ntype = \"diffuse\"\n[[object]]\nmesh = "
                                          "\"room.gltf\"\nmaterial = \"m\"\n"));
   EXPECT_TRUE(geometry.lights.empty());
-  EXPECT_EQ(boundingBox(geometry.meshes.at(0)).first, vec3(1, 0, 0));
+  EXPECT_EQ(boundingBox(geometry.meshes.at(0)).low, vec3(1, 0, 0));
 }
 
 TEST_F(Gltf, SparseStridedAndNormalizedAccessorsAreRead) {

@@ -79,7 +79,7 @@ std::vector<vec3> expectedLux(SceneVolumes& volumes, const Scene& scene, const T
                               const std::vector<vec4>& points, vec3 normal) {
   const Placement& placement = scene.objects[0].placement;
   IrradianceVolume& volume = *volumes.ofObject[0];
-  const vec3 centre = placement.point(volume.sphere().centre), toLamp = scene.lights[1].position - centre;
+  const vec3 centre = placement.point(volume.sphere().center), toLamp = scene.lights[1].position - centre;
   std::vector<vec3> lux(points.size(), vec3(0));
   const auto add = [&](vec3 direction, vec3 power, vec3 nearness) {
     for (std::size_t i = 0; i < points.size(); ++i) {

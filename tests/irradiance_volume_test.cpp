@@ -37,7 +37,7 @@ double photonsThrough(const CasterTracer& tracer, vec3 light, vec3 centre, vec3 
   const mat3 frame = sampleFrame(light);
   double flux = 0;
   for (const PhotonPath& path : tracer.trace(light, 60000, 4)) {
-    const vec3 origin = tracer.sphere().centre + radius * (frame * path.origin);
+    const vec3 origin = tracer.sphere().center + radius * (frame * path.origin);
     const vec3 direction = frame * path.direction;
     const float along = dot(centre - origin, axis) / dot(direction, axis);
     if (along < 0 || along > radius * path.length || dot(direction, axis) <= 0) continue;
@@ -197,7 +197,7 @@ double errorBetweenSamples(IrradianceVolume& volume, const CasterTracer& tracer,
       const double expected = double(
           surfaceIlluminance(lightAt(truth.layout, truth.words, kRepresentationGrid, place), vec3(0, 0, -1))
               .y);
-      const vec3 point = tracer.sphere().centre + tracer.sphere().radius * (frame * place);
+      const vec3 point = tracer.sphere().center + tracer.sphere().radius * (frame * place);
       const double lux = double(volume.illuminance(point, -light, light, interpolation).y);
       squares += (lux - expected) * (lux - expected);
       sum += expected * expected;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/octahedral.h"
-#include "geometry/mesh_checks.h"
+#include "geometry/bounds.h"
 #include "transport/traced/traced_source.h"
 
 namespace nephroid {

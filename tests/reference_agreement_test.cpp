@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "formats/mesh_file.h"
+#include "geometry/bounds.h"
 #include "reference_scenes.h"
 
 namespace nephroid {
@@ -151,11 +152,9 @@ TEST(Agreement, OnABunny) {
   const std::filesystem::path file = "/usr/share/glmark2/models/bunny.obj";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   Mesh bunny = loadMeshFile(file);
-  vec3 low(1e30f), high(-1e30f);
-  for (const vec3& p : bunny.positions) low = glm::min(low, p), high = glm::max(high, p);
-  const vec3 size = high - low;
-  const float scale = 0.7f / std::max({size.x, size.y, size.z});
-  for (vec3& p : bunny.positions) p = (p - 0.5f * (low + high)) * scale;
+  const Box box = boundingBox(bunny);
+  const float scale = 0.7f / box.longestSide();
+  for (vec3& p : bunny.positions) p = (p - box.center()) * scale;
   expectAgreement(lit(pointLight(kLamp), std::move(bunny), glass()));
 }
 

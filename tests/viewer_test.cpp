@@ -89,7 +89,7 @@ TEST(CameraControl, ZoomNeverReachesTheTarget) {
 
 TEST(CameraControl, AFramedBoxIsInThePicture) {
   Camera camera = someCamera();
-  frameBox(camera, {3, 3, 3}, {5, 4, 7});
+  frameBox(camera, {{3, 3, 3}, {5, 4, 7}});
   for (const vec3 corner : {vec3(3, 3, 3), vec3(5, 4, 7), vec3(3, 4, 7), vec3(5, 3, 3)}) {
     const auto pixel = pixelOf(camera, kSize, corner);
     ASSERT_TRUE(pixel);

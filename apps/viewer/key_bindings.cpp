@@ -33,18 +33,16 @@ void frameChosen(Viewer& viewer) {
   ViewerState& state = viewer.state();
   if (state.selection.what == Chosen::light) {
     const vec3 place = middleOf(state.scene.lights[state.selection.index]);
-    return frameBox(state.scene.camera, place - 0.5f, place + 0.5f);
+    return frameBox(state.scene.camera, {place - 0.5f, place + 0.5f});
   }
   const bool isOne = state.selection.what == Chosen::object;
-  vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+  Box bounds;
   for (uint32_t i = 0; i < state.scene.objects.size(); ++i) {
     const Object& object = state.scene.objects[i];
     if (isOne ? i != state.selection.index : !state.scene.isCaster(object)) continue;
-    const auto [objectLow, objectHigh] = worldBounds(state.scene, object);
-    low = glm::min(low, objectLow);
-    high = glm::max(high, objectHigh);
+    bounds.include(worldBounds(state.scene, object));
   }
-  if (low.x <= high.x) frameBox(state.scene.camera, low, high);
+  if (!bounds.isEmpty()) frameBox(state.scene.camera, bounds);
 }
 
 void toggle(Viewer& viewer, Overlay overlay) {

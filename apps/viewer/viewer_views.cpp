@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/mesh_checks.h"
+#include "geometry/bounds.h"
 #include "viewer_loop.h"
 
 namespace nephroid {
@@ -169,12 +169,14 @@ void Viewer::drawHandles(vec2 corner, vec2 size) const {
   }
   if (selection.what == Chosen::object) {
     const Object& object = state_.scene.objects[selection.index];
-    const auto [low, high] = boundingBox(state_.scene.meshOf(object));
-    const vec3 x = object.placement.direction({high.x - low.x, 0, 0}),
-               y = object.placement.direction({0, high.y - low.y, 0}),
-               z = object.placement.direction({0, 0, high.z - low.z});
+    const Box bounds = boundingBox(state_.scene.meshOf(object));
+    const vec3 extent = bounds.size();
+    const vec3 x = object.placement.direction({extent.x, 0, 0}),
+               y = object.placement.direction({0, extent.y, 0}),
+               z = object.placement.direction({0, 0, extent.z});
     const float s = object.placement.scale;
-    const Lattice box{LatticeKind::planes, object.placement.point(low), {s * x, s * y, s * z}, uvec3(1)};
+    const Lattice box{
+        LatticeKind::planes, object.placement.point(bounds.low), {s * x, s * y, s * z}, uvec3(1)};
     const View view = viewOf(state_.scene.camera, uvec2(size));
     for (const SceneLine& line : latticeLines({&box, 1}, LatticeKind::planes))
       if (const auto seen = inPicture(view, size, line)) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "beams/incident_flux.h"
+#include "geometry/bounds.h"
 #include "geometry/curved_triangle.h"
 #include "lights/light_in_air.h"
 
@@ -309,15 +310,6 @@ class Builder {
   const float facing;  // -1 where the light stands inside the caster and meets its triangles from behind
 };
 
-float extentOf(const Mesh& mesh) {
-  vec3 lower(std::numeric_limits<float>::infinity()), upper(-lower);
-  for (const vec3& p : mesh.positions) {
-    lower = glm::min(lower, p);
-    upper = glm::max(upper, p);
-  }
-  return length(upper - lower);
-}
-
 Surface surfaceOf(const Object& object, const Mesh& mesh, const uvec3& triangle) {
   Surface surface;
   for (int i = 0; i < 3; ++i) {
@@ -362,7 +354,7 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
   vertices.findSteadyTriangles();
 
   const ShapedLight light = shapedLight(scene, scene.lights[query.emitter.light]);
-  const float extent = extentOf(mesh);
+  const float extent = boundingBox(mesh).diagonal();
   const std::size_t blocks = (mesh.triangles.size() + kBlock - 1) / kBlock;
   std::vector<BeamSet> parts(blocks);
   oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/box.h"
 #include "transport/outgoing_ray.h"
 
 namespace nephroid {
@@ -83,7 +84,7 @@ float leastStart(std::span<const Beam> beams, uint32_t way) {
 }
 
 void include(BeamBounds& bounds, const Beam& beam, uint32_t way) {
-  vec3 low(kFar), high(-kFar);  // where light ends
+  Box ends;  // where light does
   float longest = 0;
   for (int i = 0; i < 3; ++i) {
     const vec3 start = inWay(beam.position[i], way), direction = inWay(beam.direction[i], way);
@@ -97,14 +98,12 @@ void include(BeamBounds& bounds, const Beam& beam, uint32_t way) {
     bounds.slopeHigh = max(bounds.slopeHigh, slope);
     bounds.nearest = std::min(bounds.nearest, start.z);
     longest = std::max(longest, beam.reach[i]);
-    const vec3 end = start + beam.reach[i] * direction;
-    low = min(low, end);
-    high = max(high, end);
+    ends.include(start + beam.reach[i] * direction);
   }
-  const bool ends = longest < kUnboundedReach;
-  const float tolerance = reachTolerance(longest, ends ? length(high - low) : 0);
-  bounds.farthest = ends ? std::max(bounds.farthest, high.z + tolerance) : kFar;
-  if (ends) bounds.nearest -= tolerance;
+  const bool isBounded = longest < kUnboundedReach;
+  const float tolerance = reachTolerance(longest, isBounded ? ends.diagonal() : 0);
+  bounds.farthest = isBounded ? std::max(bounds.farthest, ends.high.z + tolerance) : kFar;
+  if (isBounded) bounds.nearest -= tolerance;
 }
 
 }  // namespace

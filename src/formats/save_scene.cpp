@@ -6,7 +6,7 @@
 #include "formats/save_imports.h"
 #include "formats/toml_table.h"
 #include "formats/toml_text.h"
-#include "geometry/mesh_checks.h"
+#include "geometry/bounds.h"
 #include "scene/framing.h"
 #include "water/wave_simulation.h"
 
@@ -61,17 +61,16 @@ void savePlacement(const Scene& scene, const Object& before, const Object& after
                    TomlText& text) {
   const Placement& placement = after.placement;
   if (before.placement == placement) return;
-  const auto [low, high] = boundingBox(scene.meshOf(after));
+  const Box box = boundingBox(scene.meshOf(after));
   const bool isFitted = table.contains("fit");
   // What `fit` adds to the translation so that the box's middle is where the origin would be.
-  const vec3 moved = isFitted ? placement.rotation * (placement.scale * 0.5f * (low + high)) : vec3(0);
+  const vec3 moved = isFitted ? placement.rotation * (placement.scale * box.center()) : vec3(0);
   text.set(table, "translation", tomlVector(placement.translation + moved));
   if (before.placement.rotation != placement.rotation)
     text.set(table, "rotation", tomlVector(eulerDegrees(placement.rotation)));
   if (before.placement.scale == placement.scale) return;
-  const vec3 size = high - low;
   if (isFitted)
-    text.set(table, "fit", tomlNumber(placement.scale * std::max({size.x, size.y, size.z})));
+    text.set(table, "fit", tomlNumber(placement.scale * box.longestSide()));
   else
     text.set(table, "scale", tomlNumber(placement.scale));
 }

@@ -7,7 +7,7 @@
 #include "formats/mesh_file.h"
 #include "formats/scene_toml.h"
 #include "formats/scene_toml_imports.h"
-#include "geometry/mesh_checks.h"
+#include "geometry/bounds.h"
 #include "geometry/mesh_density.h"
 #include "scene/dispersion.h"
 #include "scene/framing.h"
@@ -71,23 +71,19 @@ ObjectTransform readTransform(TomlTable& table) {
 }
 
 // Centres the box on the origin and makes its longest side `fit`, before the rest of the placement.
-Placement fitted(const ObjectTransform& transform, std::pair<vec3, vec3> box) {
+Placement fitted(const ObjectTransform& transform, const Box& box) {
   Placement placement = transform.placement;
   if (!transform.fit) return placement;
-  const vec3 size = box.second - box.first;
-  placement.scale = *transform.fit / std::max({size.x, size.y, size.z});
-  placement.translation += placement.rotation * (-placement.scale * 0.5f * (box.first + box.second));
+  placement.scale = *transform.fit / box.longestSide();
+  placement.translation += placement.rotation * (-placement.scale * box.center());
   return placement;
 }
 
-std::pair<vec3, vec3> boundsOf(const GltfPart& part) {
-  vec3 low(std::numeric_limits<float>::infinity()), high = -low;
-  for (const Object& object : part.objects) {
-    const auto [lower, upper] = placedBounds(part.meshes[object.mesh], object.placement);
-    low = glm::min(low, lower);
-    high = glm::max(high, upper);
-  }
-  return {low, high};
+Box boundsOf(const GltfPart& part) {
+  Box bounds;
+  for (const Object& object : part.objects)
+    bounds.include(placedBox(boundingBox(part.meshes[object.mesh]), object.placement));
+  return bounds;
 }
 
 Placement placed(const Placement& outer, const Placement& inner) {

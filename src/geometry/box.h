@@ -1,4 +1,4 @@
-// Straight ways through boxes along the axes.
+// Boxes along the axes, and straight ways through them.
 #ifndef NEPHROID_GEOMETRY_BOX_H
 #define NEPHROID_GEOMETRY_BOX_H
 
@@ -20,5 +20,47 @@ SHARED_FUNCTION vec2 wayThroughBox(vec3 low, vec3 high, vec3 from, vec3 directio
 }
 
 SHARED_END
+
+#ifdef __cplusplus
+
+#include <algorithm>
+#include <limits>
+
+namespace nephroid {
+
+// Grows around what it is to hold; empty before that.
+struct Box {
+  vec3 low{std::numeric_limits<float>::infinity()};  // m
+  vec3 high{-std::numeric_limits<float>::infinity()};
+
+  void include(vec3 point) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  void include(const Box& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
+  bool isEmpty() const { return !(low.x <= high.x); }
+  vec3 size() const { return high - low; }
+  vec3 center() const { return 0.5f * (low + high); }
+  float longestSide() const { return std::max({size().x, size().y, size().z}); }
+  float diagonal() const { return glm::length(size()); }
+  // `i` from 0 to 7: its bits choose the high side along x, y and z.
+  vec3 corner(int i) const {
+    return {(i & 1 ? high : low).x, (i & 2 ? high : low).y, (i & 4 ? high : low).z};
+  }
+  bool holds(vec3 point) const {
+    return glm::all(glm::greaterThanEqual(point, low)) && glm::all(glm::lessThanEqual(point, high));
+  }
+  // With room on all sides.
+  bool holdsInside(const Box& other) const {
+    return glm::all(glm::greaterThan(other.low, low)) && glm::all(glm::lessThan(other.high, high));
+  }
+};
+
+}  // namespace nephroid
+
+#endif
 
 #endif

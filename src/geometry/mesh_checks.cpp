@@ -200,17 +200,6 @@ MeshTopology meshTopology(const Mesh& mesh) {
   return topology;
 }
 
-std::pair<vec3, vec3> boundingBox(const Mesh& mesh) {
-  vec3 lower(std::numeric_limits<float>::infinity()), upper = -lower;
-  for (const uvec3 t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      lower = glm::min(lower, mesh.positions[t[k]]);
-      upper = glm::max(upper, mesh.positions[t[k]]);
-    }
-  }
-  return {lower, upper};
-}
-
 void checkMesh(const Mesh& mesh, const std::string& source) {
   requireUsable(mesh, source);
   requireFinished(mesh, source);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "geometry/mesh.h"
@@ -27,9 +26,6 @@ MeshTopology meshTopology(const Mesh& mesh);
 
 // For every vertex, the first vertex at exactly the same position.
 std::vector<uint32_t> joinEqualPositions(const std::vector<vec3>& positions);
-
-// Lower and upper corner of what the triangles use.
-std::pair<vec3, vec3> boundingBox(const Mesh& mesh);
 
 // Makes a mesh ready for use, in place: checks that indices are in range and positions finite, merges equal
 // vertices, leaves out vertices that are not used and triangles without an area (counted in

@@ -2,6 +2,7 @@
 #include <array>
 #include <utility>
 
+#include "geometry/bounds.h"
 #include "geometry/mesh_checks.h"
 #include "geometry/shape_grid.h"
 
@@ -271,10 +272,9 @@ Mesh makeTeapot(float size, Density density) {
   addLidGap(mesh, n);
   addTube(mesh, kHandle, n);
   addTube(mesh, kSpout, n);
-  const auto [low, high] = boundingBox(mesh);
-  const vec3 extent = high - low, centre = 0.5f * (low + high);
-  const float scale = size / std::max({extent.x, extent.y, extent.z});
-  for (vec3& p : mesh.positions) p = scale * (p - centre);
+  const Box box = boundingBox(mesh);
+  const float scale = size / box.longestSide();
+  for (vec3& p : mesh.positions) p = scale * (p - box.center());
   finishMesh(mesh, mesh.name);
   mesh.isCurved = true;
   return mesh;

@@ -110,7 +110,7 @@ std::vector<PhotonPath> CasterTracer::send(vec3 start, const mat3& frame, vec3 f
   follow(hit, frame[2], flux, paths);
   const mat3 toFrame = glm::transpose(frame);
   for (PhotonPath& path : paths) {
-    path.origin = toFrame * ((path.origin - sphere_.centre) / sphere_.radius);
+    path.origin = toFrame * ((path.origin - sphere_.center) / sphere_.radius);
     path.direction = toFrame * path.direction;
     path.length = std::min(path.length / sphere_.radius, lengthInside(path.origin, path.direction, reach));
   }
@@ -126,7 +126,7 @@ std::vector<PhotonPath> CasterTracer::trace(const mat3& frame, uint32_t photons,
   const vec3 flux(std::numbers::pi_v<float> / float(photons));
   return inBlocks<PhotonPath>(photons, [&](uint32_t photon, std::vector<PhotonPath>& found) {
     Hit hit;
-    const vec3 start = sphere_.centre + sphere_.radius * (frame * vec3(onDisc(photon), -2.0f));
+    const vec3 start = sphere_.center + sphere_.radius * (frame * vec3(onDisc(photon), -2.0f));
     const std::vector<PhotonPath> paths = send(start, frame, flux, reach, hit);
     found.insert(found.end(), paths.begin(), paths.end());
   });
@@ -140,9 +140,9 @@ std::vector<PhotonPair> CasterTracer::pairs(const mat3& frame, const mat3& other
     const vec3 start(onDisc(photon), -2.0f);
     Hit hit, otherHit;
     const std::vector<PhotonPath> from =
-        send(sphere_.centre + sphere_.radius * (frame * start), frame, flux, reach, hit);
+        send(sphere_.center + sphere_.radius * (frame * start), frame, flux, reach, hit);
     if (from.empty()) return;
-    const vec3 otherStart = pairedBy == PairedBy::place ? sphere_.centre + sphere_.radius * (other * start)
+    const vec3 otherStart = pairedBy == PairedBy::place ? sphere_.center + sphere_.radius * (other * start)
                                                         : hit.position - 3 * sphere_.radius * other[2];
     const std::vector<PhotonPath> to = send(otherStart, other, flux, reach, otherHit);
     if (to.size() != from.size()) return;

@@ -51,7 +51,7 @@ class CasterTracer {
   std::vector<PhotonPair> pairs(const mat3& frame, const mat3& other, PairedBy pairedBy, uint32_t photons,
                                 float reach) const;
 
-  const BoundingSphere& sphere() const { return sphere_; }
+  const Sphere& sphere() const { return sphere_; }
   const Symmetry& symmetry() const { return symmetry_; }
 
  private:
@@ -63,7 +63,7 @@ class CasterTracer {
   Paths paths_;
   RayScene rays_;
   Follower follower_;
-  BoundingSphere sphere_;
+  Sphere sphere_;
   Symmetry symmetry_;
 };
 

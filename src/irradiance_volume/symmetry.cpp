@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "geometry/mesh_checks.h"
 
 namespace nephroid {
 namespace {
@@ -21,19 +20,18 @@ vec3 randomDirection(Random& random) {
   return {planar * std::cos(azimuth), planar * std::sin(azimuth), z};
 }
 
-bool meetsAlike(const RayScene& rays, const BoundingSphere& sphere, const mat3& transform, vec3 origin,
-                vec3 target) {
+bool meetsAlike(const RayScene& rays, const Sphere& sphere, const mat3& transform, vec3 origin, vec3 target) {
   const vec3 direction = normalize(target - origin);
   Hit hit, image;
-  const bool meets = rays.intersect({sphere.centre + sphere.radius * origin, direction}, hit);
+  const bool meets = rays.intersect({sphere.center + sphere.radius * origin, direction}, hit);
   const bool imageMeets =
-      rays.intersect({sphere.centre + sphere.radius * (transform * origin), transform * direction}, image);
+      rays.intersect({sphere.center + sphere.radius * (transform * origin), transform * direction}, image);
   if (meets != imageMeets) return false;
   return !meets || (std::abs(hit.distance - image.distance) < kDistanceTolerance * sphere.radius &&
                     dot(transform * hit.normal, image.normal) > kNormalTolerance);
 }
 
-bool isKeptBy(const RayScene& rays, const BoundingSphere& sphere, const mat3& transform) {
+bool isKeptBy(const RayScene& rays, const Sphere& sphere, const mat3& transform) {
   Random random(1);
   int different = 0;
   for (int i = 0; i < kRays && different <= kMostDifferent; ++i) {
@@ -62,15 +60,7 @@ mat3 mirror(int axis) {
 
 }  // namespace
 
-BoundingSphere boundingSphere(const Mesh& mesh) {
-  const auto [low, high] = boundingBox(mesh);
-  BoundingSphere sphere{0.5f * (low + high), 0};
-  for (const vec3& position : mesh.positions)
-    sphere.radius = std::max(sphere.radius, length(position - sphere.centre));
-  return sphere;
-}
-
-Symmetry findSymmetry(const RayScene& rays, const BoundingSphere& sphere) {
+Symmetry findSymmetry(const RayScene& rays, const Sphere& sphere) {
   // Angles that no regular polygon is kept by.
   const auto isKeptByTurns = [&](vec3 axis) {
     return isKeptBy(rays, sphere, turn(axis, 1.0f)) && isKeptBy(rays, sphere, turn(axis, 2.3f));

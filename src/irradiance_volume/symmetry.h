@@ -2,20 +2,12 @@
 // 2004, section 6).
 #pragma once
 
+#include "geometry/bounds.h"
 #include "trace/ray_scene.h"
 
 namespace nephroid {
 
-// A caster's bounding sphere, in its own space.
-struct BoundingSphere {
-  vec3 centre{0};
-  float radius = 1;
-};
-
-// About the middle of the bounding box, which the centre of a symmetric mesh is.
-BoundingSphere boundingSphere(const Mesh& mesh);
-
-// About the centre of the bounding sphere.
+// About the center of the mesh's bounding sphere, which the center of a symmetric mesh is.
 struct Symmetry {
   bool isBall = false;
   uint32_t axis = 3;                        // of revolution: 0, 1, 2; 3 for none
@@ -24,6 +16,6 @@ struct Symmetry {
 };
 
 // Found by rays: those turned or mirrored must meet the same surface. `rays` is of the one mesh.
-Symmetry findSymmetry(const RayScene& rays, const BoundingSphere& sphere);
+Symmetry findSymmetry(const RayScene& rays, const Sphere& sphere);
 
 }  // namespace nephroid

@@ -186,7 +186,7 @@ vec3 IrradianceVolume::illuminance(vec3 point, vec3 normal, vec3 direction,
                                    LightInterpolation interpolation) {
   prepare(direction, interpolation);
   const auto radius = float(key_.settings.radius);
-  const vec3 place = (point - sphere_.centre) / sphere_.radius;
+  const vec3 place = (point - sphere_.center) / sphere_.radius;
   vec3 sum(0);
   for (const Part& part : prepared_.parts) {
     const SampleLayout& layout = part.view.layout;

@@ -67,7 +67,7 @@ class IrradianceVolume {
 
   const VolumeKey& key() const { return key_; }
   const Symmetry& symmetry() const { return symmetry_; }
-  const BoundingSphere& sphere() const { return sphere_; }
+  const Sphere& sphere() const { return sphere_; }
   const LightSamples& lightSamples() const { return lightSamples_; }
   // m in the caster's own space: where the light kept ends.
   float regionRadius() const { return sphere_.radius * float(key_.settings.radius); }
@@ -99,7 +99,7 @@ class IrradianceVolume {
   std::optional<Material> material_;
   std::unique_ptr<CasterTracer> tracer_;  // none where a file was given
   Symmetry symmetry_;
-  BoundingSphere sphere_;
+  Sphere sphere_;
   LightSamples lightSamples_;
   std::filesystem::path cacheFolder_;
   std::vector<std::optional<SampleView>> samples_;

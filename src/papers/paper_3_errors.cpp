@@ -85,7 +85,7 @@ double tracedThrough(const CasterTracer& tracer, const std::vector<PhotonPath>& 
   const float radius = tracer.sphere().radius;
   double flux = 0;
   for (const PhotonPath& path : paths) {
-    const vec3 origin = tracer.sphere().centre + radius * (lightFrame * path.origin);
+    const vec3 origin = tracer.sphere().center + radius * (lightFrame * path.origin);
     const vec3 direction = lightFrame * path.direction;
     const float toward = dot(direction, square.frame[2]);
     const float along = dot(square.centre - origin, square.frame[2]) / toward;
@@ -151,7 +151,7 @@ void addFluxes(PaperTable& table, const std::filesystem::path& scenes) {
       IrradianceVolume volume = volumeOf(scene, settingsFor(representation, 360));
       for (const float distance : {1.3f, 2.0f, 3.0f, 5.0f}) {
         const float radius = tracer.sphere().radius;
-        const Square square{tracer.sphere().centre + radius * distance * light, frame,
+        const Square square{tracer.sphere().center + radius * distance * light, frame,
                             1.5f * radius * distance};
         char plane[16];
         std::snprintf(plane, sizeof plane, "%.1f", double(distance));

@@ -69,7 +69,7 @@ Scene withGrid(Scene scene, uint32_t grid) {
 // With what stands above the water far off, so that all of it is lit.
 Scene withoutOccluders(Scene scene) {
   for (Object& object : scene.objects)
-    if (!scene.isCaster(object) && worldBounds(scene, object).first.y > 0)
+    if (!scene.isCaster(object) && worldBounds(scene, object).low.y > 0)
       object.placement.translation.x += 100;
   return scene;
 }

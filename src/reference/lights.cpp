@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/mesh_checks.h"
+#include "geometry/bounds.h"
 #include "reference/sampling.h"
 
 namespace nephroid {
@@ -11,29 +11,20 @@ namespace {
 
 constexpr std::size_t kMostTargets = 32;  // casters that are aimed at one by one
 
-struct Ball {
-  vec3 center{0};
-  float radius = 0;
-};
-
-Ball ballAround(const Scene& scene, const Object& object) {
-  const Mesh& mesh = scene.meshOf(object);
-  const auto [low, high] = boundingBox(mesh);
-  const vec3 center = 0.5f * (low + high);
-  float radius = 0;
-  for (const vec3& position : mesh.positions) radius = std::max(radius, length(position - center));
-  return {object.placement.point(center), radius * object.placement.scale * 1.0001f};
+Sphere ballAround(const Scene& scene, const Object& object) {
+  const Sphere sphere = boundingSphere(scene.meshOf(object));
+  return {object.placement.point(sphere.center), sphere.radius * object.placement.scale * 1.0001f};
 }
 
-Ball ballAround(const std::vector<Ball>& balls) {
+Sphere ballAround(const std::vector<Sphere>& balls) {
   if (balls.empty()) return {};
-  vec3 low = balls[0].center - balls[0].radius, high = balls[0].center + balls[0].radius;
-  for (const Ball& ball : balls) {
-    low = glm::min(low, ball.center - ball.radius);
-    high = glm::max(high, ball.center + ball.radius);
+  Box box;
+  for (const Sphere& ball : balls) {
+    box.include(ball.center - ball.radius);
+    box.include(ball.center + ball.radius);
   }
-  Ball whole{0.5f * (low + high), 0};
-  for (const Ball& ball : balls)
+  Sphere whole{box.center(), 0};
+  for (const Sphere& ball : balls)
     whole.radius = std::max(whole.radius, length(ball.center - whole.center) + ball.radius);
   return whole;
 }
@@ -57,12 +48,12 @@ Lights::Lights(const Scene& sceneOfLights, Aim aim) : scene(sceneOfLights) {
     skyOfLight.push_back(uint32_t(skies.size()));
     if (light.type == LightType::sky) skies.emplace_back(scene.skies[light.skyMap], light.skyRotation);
   }
-  std::vector<Ball> objects, casters;
+  std::vector<Sphere> objects, casters;
   for (const Object& object : scene.objects) {
     objects.push_back(ballAround(scene, object));
     if (scene.isCaster(object)) casters.push_back(objects.back());
   }
-  const Ball whole = ballAround(objects);
+  const Sphere whole = ballAround(objects);
   sceneCenter = whole.center;
   sceneRadius = whole.radius;
   if (casters.size() > kMostTargets) casters = {ballAround(casters)};
@@ -71,7 +62,7 @@ Lights::Lights(const Scene& sceneOfLights, Aim aim) : scene(sceneOfLights) {
   if (aim == Aim::everywhere) {
     targets = {{sceneCenter, std::numeric_limits<float>::infinity()}};
   } else {
-    for (const Ball& ball : casters) targets.push_back({ball.center, ball.radius});
+    for (const Sphere& ball : casters) targets.push_back({ball.center, ball.radius});
   }
   for (uint32_t light = 0; light < scene.lights.size(); ++light) addShares(light, targets);
   firstShare.push_back(uint32_t(shares.size()));

@@ -3,21 +3,15 @@
 #include <algorithm>
 #include <bit>
 
-#include "geometry/box.h"
-
 namespace nephroid {
 
-PhotonMap::PhotonMap(std::vector<StoredPhoton> photons, float cell) : inverseCell(1 / cell), low(0), high(0) {
+PhotonMap::PhotonMap(std::vector<StoredPhoton> photons, float cell) : inverseCell(1 / cell) {
   if (photons.empty()) return;
-  low = high = photons[0].position;
-  for (const StoredPhoton& photon : photons) {
-    low = glm::min(low, photon.position);
-    high = glm::max(high, photon.position);
-  }
+  for (const StoredPhoton& photon : photons) bounds.include(photon.position);
   // Cells are numbered by integers, and there is nothing to gain from more of them than photons along an
   // axis.
-  const vec3 size = high - low, farthest = glm::max(glm::abs(low), glm::abs(high));
-  const float most = std::max({size.x, size.y, size.z});
+  const vec3 farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+  const float most = bounds.longestSide();
   inverseCell = std::min({inverseCell, 4096.0f / std::max(most, 1e-20f),
                           1e9f / std::max({farthest.x, farthest.y, farthest.z, 1e-20f})});
 
@@ -33,7 +27,8 @@ PhotonMap::PhotonMap(std::vector<StoredPhoton> photons, float cell) : inverseCel
 }
 
 vec2 PhotonMap::reach(vec3 origin, vec3 direction, float length, float radius) const {
-  return sorted.empty() ? vec2(0) : wayThroughBox(low - radius, high + radius, origin, direction, length);
+  if (sorted.empty()) return vec2(0);
+  return wayThroughBox(bounds.low - radius, bounds.high + radius, origin, direction, length);
 }
 
 // Teschner et al. 2003.

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/shared_language.h"
+#include "geometry/box.h"
 
 namespace nephroid {
 
@@ -38,17 +38,18 @@ class PhotonMap {
   uint32_t bucketOf(Cell cell) const;
 
   float inverseCell;                    // 1/m
-  vec3 low, high;                       // of all photons
+  Box bounds;                           // of all photons
   std::vector<StoredPhoton> sorted;     // by bucket
   std::vector<uint32_t> firstOfBucket;  // and one past the last
 };
 
 template <class Visit>
 void PhotonMap::around(vec3 point, float radius, const Visit& visit) const {
-  if (sorted.empty() || glm::any(glm::lessThan(point + radius, low)) ||
-      glm::any(glm::greaterThan(point - radius, high)))
+  if (sorted.empty() || glm::any(glm::lessThan(point + radius, bounds.low)) ||
+      glm::any(glm::greaterThan(point - radius, bounds.high)))
     return;
-  const Cell first = cellOf(glm::max(point - radius, low)), last = cellOf(glm::min(point + radius, high));
+  const Cell first = cellOf(glm::max(point - radius, bounds.low)),
+             last = cellOf(glm::min(point + radius, bounds.high));
   for (int z = first.z; z <= last.z; ++z)
     for (int y = first.y; y <= last.y; ++y)
       for (int x = first.x; x <= last.x; ++x) {

@@ -4,15 +4,11 @@
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 
+#include "geometry/bounds.h"
 #include "lights/emitters.h"
 
 namespace nephroid {
 namespace {
-
-struct Sphere {
-  vec3 center{0};  // m, world space
-  float radius = 0;
-};
 
 struct PlacedObject {
   uint32_t index = 0;
@@ -28,12 +24,8 @@ PlacedObject placed(const Scene& scene, const std::vector<MeshExtent>& extents, 
   const MeshExtent& extent = extents[object.mesh];
   PlacedObject result;
   result.index = index;
-  for (std::size_t i = 0; i < 8; ++i)
-    result.corners[i] =
-        object.placement.point({(i & 1 ? extent.high : extent.low).x, (i & 2 ? extent.high : extent.low).y,
-                                (i & 4 ? extent.high : extent.low).z});
-  result.sphere = {object.placement.point(0.5f * (extent.low + extent.high)),
-                   extent.radius * object.placement.scale};
+  result.corners = placedCorners(extent.box, object.placement);
+  result.sphere = {object.placement.point(extent.box.center()), extent.radius * object.placement.scale};
   result.isFlat = extent.isFlat;
   result.normal = object.placement.direction(extent.normal);
   result.isClosed = scene.meshes[object.mesh].isClosed;
@@ -61,14 +53,10 @@ bool canShadow(const PlacedObject& object, const std::vector<PlacedObject>& all,
 }
 
 Sphere boundsOf(const std::vector<PlacedObject>& objects) {
-  vec3 low(std::numeric_limits<float>::infinity());
-  vec3 high = -low;
+  Box box;
   for (const PlacedObject& object : objects)
-    for (const vec3 corner : object.corners) {
-      low = glm::min(low, corner);
-      high = glm::max(high, corner);
-    }
-  Sphere sphere{0.5f * (low + high), 0};
+    for (const vec3 corner : object.corners) box.include(corner);
+  Sphere sphere{box.center(), 0};
   for (const PlacedObject& object : objects) {
     float farthest = 0;
     for (const vec3 corner : object.corners) farthest = std::max(farthest, distance(corner, sphere.center));
@@ -252,14 +240,9 @@ class Planner {
 
 MeshExtent extentOf(const Mesh& mesh) {
   MeshExtent extent;
-  if (mesh.positions.empty()) return extent;
-  extent.low = extent.high = mesh.positions.front();
-  for (const vec3 p : mesh.positions) {
-    extent.low = glm::min(extent.low, p);
-    extent.high = glm::max(extent.high, p);
-  }
-  const vec3 center = 0.5f * (extent.low + extent.high);
-  for (const vec3 p : mesh.positions) extent.radius = std::max(extent.radius, distance(p, center));
+  extent.box = boundingBox(mesh);
+  extent.radius = boundingSphere(mesh).radius;
+  const vec3 center = extent.box.center();
   // The largest triangle's normal is that of the plane, if there is one.
   float largest = 0;
   for (const uvec3& t : mesh.triangles) {

@@ -4,16 +4,16 @@
 
 #include <vector>
 
+#include "geometry/box.h"
 #include "lights/emitters.h"
 
 namespace nephroid {
 
 // The space a mesh takes up, in its own coordinates (m).
 struct MeshExtent {
-  vec3 low{0};  // box
-  vec3 high{0};
-  float radius = 0;     // of the sphere about the box's centre
-  bool isFlat = false;  // all vertices in the plane through the box's centre across `normal`
+  Box box;
+  float radius = 0;     // of the sphere about the middle of the box
+  bool isFlat = false;  // all vertices in the plane through the middle of the box across `normal`
   vec3 normal{0, 1, 0};
 };
 

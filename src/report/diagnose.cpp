@@ -76,9 +76,9 @@ void judgeMaterial(const Material& material, CasterReport& report) {
 }
 
 void judgeLight(const Scene& scene, const Object& object, CasterReport& report) {
-  const auto [low, high] = worldBounds(scene, object);
-  const vec3 centre = 0.5f * (low + high);
-  const float radius = 0.5f * glm::distance(low, high);
+  const Box bounds = worldBounds(scene, object);
+  const vec3 centre = bounds.center();
+  const float radius = 0.5f * bounds.diagonal();
   if (scene.lights.empty()) {
     report.obstacles.push_back("no light reaches it: the scene has none");
     return;
@@ -94,8 +94,7 @@ void judgeLight(const Scene& scene, const Object& object, CasterReport& report) 
   }
   for (const Light& light : scene.lights) {
     const bool hasPlace = light.type == LightType::point || light.type == LightType::spot;
-    if (hasPlace && glm::all(glm::greaterThan(light.position, low)) &&
-        glm::all(glm::lessThan(light.position, high))) {
+    if (hasPlace && bounds.holdsInside({light.position, light.position})) {
       report.notes.push_back("the light \"" + light.name + "\" is inside its bounding box");
     }
   }

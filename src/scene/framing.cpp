@@ -1,23 +1,22 @@
 #include "scene/framing.h"
 
-#include "geometry/mesh_checks.h"
+#include <algorithm>
+
+#include "geometry/bounds.h"
 
 namespace nephroid {
 
-std::pair<vec3, vec3> placedBounds(const Mesh& mesh, const Placement& placement) {
-  const auto [lower, upper] = boundingBox(mesh);
-  vec3 low(std::numeric_limits<float>::infinity()), high = -low;
-  for (int corner = 0; corner < 8; ++corner) {
-    const vec3 p = placement.point(
-        {corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y, corner & 4 ? upper.z : lower.z});
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  return {low, high};
+Box worldBounds(const Scene& scene, const Object& object) {
+  return placedBox(boundingBox(scene.meshOf(object)), object.placement);
 }
 
-std::pair<vec3, vec3> worldBounds(const Scene& scene, const Object& object) {
-  return placedBounds(scene.meshOf(object), object.placement);
+Box boundsOfInterest(const Scene& scene) {
+  const bool hasCaster =
+      std::ranges::any_of(scene.objects, [&](const Object& object) { return scene.isCaster(object); });
+  Box bounds;
+  for (const Object& object : scene.objects)
+    if (!hasCaster || scene.isCaster(object)) bounds.include(worldBounds(scene, object));
+  return bounds;
 }
 
 vec3 upFor(vec3 view) {
@@ -27,19 +26,11 @@ vec3 upFor(vec3 view) {
 
 Camera framingCamera(const Scene& scene) {
   Camera camera;
-  vec3 low(std::numeric_limits<float>::infinity()), high = -low;
-  bool hasCaster = false;
-  for (const Object& object : scene.objects) hasCaster = hasCaster || scene.isCaster(object);
-  for (const Object& object : scene.objects) {
-    if (hasCaster && !scene.isCaster(object)) continue;
-    const auto [objectLow, objectHigh] = worldBounds(scene, object);
-    low = glm::min(low, objectLow);
-    high = glm::max(high, objectHigh);
-  }
-  if (scene.objects.empty()) return camera;
-  const float radius = std::max(0.5f * glm::distance(low, high), 1e-4f);
+  const Box bounds = boundsOfInterest(scene);
+  if (bounds.isEmpty()) return camera;
+  const float radius = std::max(0.5f * bounds.diagonal(), 1e-4f);
   const float distance = 1.5f * radius / std::sin(glm::radians(camera.verticalFov / 2));
-  camera.target = 0.5f * (low + high);
+  camera.target = bounds.center();
   camera.position = camera.target + distance * glm::normalize(vec3(0, 0.5f, 1));
   return camera;
 }

@@ -1,15 +1,17 @@
-// Where a camera stands when the scene does not say.
+// How much room objects take, and where a camera stands when the scene does not say.
 #pragma once
 
-#include <utility>
-
+#include "geometry/box.h"
 #include "scene/scene.h"
 
 namespace nephroid {
 
-// The corners of a box around a mesh, and around an object, where it stands.
-std::pair<vec3, vec3> placedBounds(const Mesh& mesh, const Placement& placement);
-std::pair<vec3, vec3> worldBounds(const Scene& scene, const Object& object);
+// Around an object, where it stands.
+Box worldBounds(const Scene& scene, const Object& object);
+
+// Around all casters, or all objects where there are none: what cameras and lights are there for. Empty
+// without objects.
+Box boundsOfInterest(const Scene& scene);
 
 // Up along y, unless the view (any length) runs along it.
 vec3 upFor(vec3 view);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/bounds.h"
 #include "lights/emitters.h"
 
 namespace nephroid {
@@ -12,16 +13,6 @@ constexpr float kNearlyOneDirection = 0.8f;
 // How many times a cell of water may be divided more often than a triangle of glass, where glass stands in
 // it.
 constexpr uint32_t kCutsBeyondWaves = 2;
-
-vec3 centerOf(const Scene& scene, const Object& object) {
-  const std::vector<vec3>& positions = scene.meshOf(object).positions;
-  vec3 low = positions[0], high = positions[0];
-  for (const vec3& p : positions) {
-    low = min(low, p);
-    high = max(high, p);
-  }
-  return object.placement.point(0.5f * (low + high));
-}
 
 // Past the last emitter that shines on `center` together with the emitter `first`.
 std::size_t endOfLamp(vec3 center, std::span<const Emitter> emitters, std::size_t first) {
@@ -69,7 +60,8 @@ std::vector<std::vector<BandQuery>> lightThroughCasters(const SceneTransport& tr
   std::vector<std::vector<BandQuery>> portions;
   for (uint32_t object = 0; object < scene.objects.size(); ++object) {
     if (!scene.isCaster(scene.objects[object]) || !isAmong(scene.objects[object], casters)) continue;
-    const vec3 center = centerOf(scene, scene.objects[object]);
+    const vec3 center =
+        scene.objects[object].placement.point(boundingBox(scene.meshOf(scene.objects[object])).center());
     for (std::size_t first = 0, last; first < emitters.size(); first = last) {
       last = endOfLamp(center, emitters, first);
       std::vector<BandQuery> queries;

@@ -69,10 +69,10 @@ void fly(Camera& camera, vec3 metres) {
   camera.target += move;
 }
 
-void frameBox(Camera& camera, vec3 low, vec3 high) {
+void frameBox(Camera& camera, const Box& box) {
   const vec3 forward = normalize(camera.target - camera.position);
-  const float radius = std::max(0.5f * distance(low, high), 1e-4f);
-  camera.target = 0.5f * (low + high);
+  const float radius = std::max(0.5f * box.diagonal(), 1e-4f);
+  camera.target = box.center();
   camera.position = camera.target - radius / std::sin(0.5f * glm::radians(camera.verticalFov)) * forward;
 }
 

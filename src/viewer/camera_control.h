@@ -1,6 +1,7 @@
 // Moving a camera by hand. World space; +Y is up, and a camera that is turned stands upright.
 #pragma once
 
+#include "geometry/box.h"
 #include "scene/scene.h"
 
 namespace nephroid {
@@ -23,6 +24,6 @@ void zoom(Camera& camera, float steps);
 void fly(Camera& camera, vec3 metres);
 
 // Backward or forward, and with it its target, until the box (m) just fits into the picture.
-void frameBox(Camera& camera, vec3 low, vec3 high);
+void frameBox(Camera& camera, const Box& box);
 
 }  // namespace nephroid

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bounds.h"
 #include "lights/emitters.h"
 #include "render/view.h"
 #include "scene/framing.h"
@@ -10,24 +11,11 @@
 namespace nephroid {
 namespace {
 
-struct Sphere {
-  vec3 centre{0};
-  float radius = 1;
-};
-
-// About casters, or all objects where there are none: what a light is there for.
+// What a light is there for.
 Sphere sphereOfInterest(const Scene& scene) {
-  const bool hasCasters =
-      std::ranges::any_of(scene.objects, [&](const Object& object) { return scene.isCaster(object); });
-  vec3 low(std::numeric_limits<float>::infinity()), high = -low;
-  for (const Object& object : scene.objects) {
-    if (hasCasters && !scene.isCaster(object)) continue;
-    const auto [objectLow, objectHigh] = worldBounds(scene, object);
-    low = glm::min(low, objectLow);
-    high = glm::max(high, objectHigh);
-  }
-  if (scene.objects.empty()) return {};
-  return {0.5f * (low + high), std::max(0.5f * distance(low, high), 1e-3f)};
+  const Box bounds = boundsOfInterest(scene);
+  if (bounds.isEmpty()) return {vec3(0), 1};
+  return {bounds.center(), std::max(0.5f * bounds.diagonal(), 1e-3f)};
 }
 
 // The place along the line through `anchor` that is nearest to the ray.
@@ -78,8 +66,7 @@ std::optional<vec2> pixelOf(const Camera& camera, uvec2 size, vec3 point) {
 }
 
 vec3 centreOf(const Scene& scene, const Object& object) {
-  const auto [low, high] = worldBounds(scene, object);
-  return 0.5f * (low + high);
+  return worldBounds(scene, object).center();
 }
 
 std::vector<Handle> handlesOf(const Scene& scene) {
@@ -87,7 +74,7 @@ std::vector<Handle> handlesOf(const Scene& scene) {
   std::vector<Handle> handles;
   for (uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
-    const float away = std::max(distance(light.position, lit.centre), 1e-3f);
+    const float away = std::max(distance(light.position, lit.center), 1e-3f);
     switch (light.type) {
       case LightType::point:
         handles.push_back({i, HandlePart::body, light.position});
@@ -106,7 +93,7 @@ std::vector<Handle> handlesOf(const Scene& scene) {
       case LightType::sky:
         break;
       case LightType::directional:
-        handles.push_back({i, HandlePart::body, lit.centre - 2 * lit.radius * light.direction});
+        handles.push_back({i, HandlePart::body, lit.center - 2 * lit.radius * light.direction});
         break;
     }
   }
@@ -119,7 +106,7 @@ void moveHandle(Scene& scene, const Handle& handle, vec3 position) {
     return length(offset) > 1e-6f ? normalize(offset) : otherwise;
   };
   if (light.type == LightType::directional) {
-    light.direction = directionOr(sphereOfInterest(scene).centre - position, light.direction);
+    light.direction = directionOr(sphereOfInterest(scene).center - position, light.direction);
   } else if (handle.part == HandlePart::aim) {
     light.direction = directionOr(position - light.position, light.direction);
   } else if (handle.part == HandlePart::end) {

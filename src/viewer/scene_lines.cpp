@@ -12,14 +12,10 @@ namespace {
 constexpr uint32_t kMostCellsAcross = 16;  // that are told apart
 
 float extentOf(const Scene& scene) {
-  vec3 low(0), high(0);
-  for (const Object& object : scene.objects) {
-    if (!scene.isCaster(object)) continue;
-    const auto [objectLow, objectHigh] = worldBounds(scene, object);
-    low = glm::min(low, objectLow);
-    high = glm::max(high, objectHigh);
-  }
-  return std::max(2 * distance(low, high), 1e-3f);
+  Box bounds{vec3(0), vec3(0)};
+  for (const Object& object : scene.objects)
+    if (scene.isCaster(object)) bounds.include(worldBounds(scene, object));
+  return std::max(2 * bounds.diagonal(), 1e-3f);
 }
 
 // For each vertex that light of a query may meet, the vertex, its place and normal in the world, and its ray.

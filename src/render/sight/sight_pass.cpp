@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "geometry/bounds.h"
 #include "scene/volume.h"
 #include "shaders/render/sight/caster_frag.h"
 #include "shaders/render/sight/caster_vert.h"
@@ -47,15 +48,6 @@ gpu::Program sliceProgram(gpu::Device& device, const char* name, uint32_t hasTex
                                   shaders::render_sight_slice_frag, state, {{"kHasTexture", hasTexture}});
 }
 
-std::array<vec3, 8> cornersOf(const Object& object, const MeshExtent& extent) {
-  std::array<vec3, 8> corners;
-  for (std::size_t i = 0; i < 8; ++i)
-    corners[i] =
-        object.placement.point({(i & 1 ? extent.high : extent.low).x, (i & 2 ? extent.high : extent.low).y,
-                                (i & 4 ? extent.high : extent.low).z});
-  return corners;
-}
-
 }  // namespace
 
 SightPass::SightPass(gpu::Device& device, const SightSettings& settings)
@@ -93,14 +85,15 @@ void SightPass::update(SceneTransport& transport, const View& view, uvec2 pictur
     receiverColors_.push_back(material.color);
     receiverMaterials_.push_back(object.material);
     isTextured_.push_back(material.colorTexture != kNone);
-    if (!scene.isCaster(object) && !scene.meshOf(object).positions.empty())
-      receivers_.push_back({i, cornersOf(object, extents[object.mesh])});
+    if (!scene.isCaster(object))
+      receivers_.push_back({i, placedCorners(extents[object.mesh].box, object.placement)});
   }
   const MediumStack media = transport.mediaAround(sightQuery(0, view.eye, 0, {}).emitter);
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (!scene.isCaster(object)) continue;
-    const gpu::Region region = regionOf(view, pictureSize, cornersOf(object, extents[object.mesh]));
+    const gpu::Region region =
+        regionOf(view, pictureSize, placedCorners(extents[object.mesh].box, object.placement));
     if (region.size.x > 0) add(transport, view, i, extents[object.mesh], region, media);
     if (object.water) addWater(scene, view, i, pictureSize, media.top() == i, region.size.x > 0);
   }
@@ -123,7 +116,7 @@ void SightPass::add(SceneTransport& transport, const View& view, uint32_t index,
   SightConstants& constants = caster.constants;
   constants.eye = view.eye;
   constants.ior = material.ior.y;
-  constants.center = object.placement.point(0.5f * (extent.low + extent.high));
+  constants.center = object.placement.point(extent.box.center());
   const float radius = extent.radius * object.placement.scale;
   for (const ReceiverBounds& receiver : receivers_)
     for (const vec3 corner : receiver.corners)

@@ -9,7 +9,6 @@
 
 #include "core/index_range.h"
 #include "geometry/curved_triangle.h"
-#include "geometry/mesh_checks.h"
 #include "optics/refraction.h"
 #include "scene/framing.h"
 
@@ -201,8 +200,7 @@ class Collector {
                          object.placement.point(mesh.positions[i]),
                          object.placement.direction(mesh.normals[i]),
                          rays[i]});
-    const auto [low, high] = worldBounds(scene, object);
-    size = distance(low, high);
+    size = worldBounds(scene, object).diagonal();
   }
 
   SightMesh collect() const {

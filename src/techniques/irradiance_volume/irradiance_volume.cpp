@@ -190,7 +190,7 @@ void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& v
                                  const HeldLight& held, const LightFlow& flow) {
   if (layout.words == 0 || lux == vec3(0)) return;
   const Placement& placement = object.placement;
-  const vec3 centre = placement.point(volume.sphere().centre);
+  const vec3 centre = placement.point(volume.sphere().center);
   // From the world, metres, to the sample's frame, bounding radii; and on to places.
   const float placesPerMetre = layout.placesPerUnit / (placement.scale * volume.sphere().radius);
   const mat3 turn = toFrame * glm::transpose(glm::mat3_cast(placement.rotation));
@@ -217,7 +217,7 @@ void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& v
 
 void IrradianceVolumes::addShares(const Object& object, IrradianceVolume& volume, const Emitter& emitter,
                                   const ShapedLight& light) {
-  const vec3 centre = object.placement.point(volume.sphere().centre);
+  const vec3 centre = object.placement.point(volume.sphere().center);
   const vec3 lux = illuminance(light, emitter, centre), nearness = nearnessOf({&emitter, 1}, centre);
   const vec3 inOwnSpace = object.placement.inverseDirection(emitterDirection(emitter, centre));
   for (const SampleShare& share : volume.lightSamples().around(inOwnSpace, settings.lightInterpolation))
@@ -227,7 +227,7 @@ void IrradianceVolumes::addShares(const Object& object, IrradianceVolume& volume
 
 void IrradianceVolumes::addResolved(const Object& object, IrradianceVolume& volume,
                                     std::span<const Emitter> emitters, const ShapedLight& light) {
-  const vec3 centre = object.placement.point(volume.sphere().centre);
+  const vec3 centre = object.placement.point(volume.sphere().center);
   const uint32_t order = volume.key().settings.order;
   std::vector<float> coefficients(std::size_t{order + 1} * (order + 1), 0);
   vec3 lux(0);
@@ -364,7 +364,7 @@ void keepLightSamples(const Scene& scene, const TechniqueSettings& settings, Pro
         IrradianceVolume* volume = volumes.ofObject[i];
         if (!volume) continue;
         const Placement& placement = scene.objects[i].placement;
-        const vec3 direction = emitterDirection(emitter, placement.point(volume->sphere().centre));
+        const vec3 direction = emitterDirection(emitter, placement.point(volume->sphere().center));
         if (settings.representation == Representation::harmonics)
           samples.emplace(volume, 0);
         else

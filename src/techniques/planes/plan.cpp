@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bounds.h"
 #include "techniques/planes/shader_data.h"
 
 namespace nephroid {
@@ -30,12 +31,14 @@ Line middleOf(const Beam& beam) {
 }
 
 // m along the line where it is in the box; false if it never is.
-bool meetBox(const ReceiverBox& box, const Line& line, float& enters, float& leaves) {
-  const vec3 origin = box.placement.inversePoint(line.origin);
-  const vec3 direction = box.placement.inverseDirection(line.direction) / box.placement.scale;
+bool meetBox(const ReceiverBox& receiver, const Line& line, float& enters, float& leaves) {
+  const Placement& placement = receiver.placement;
+  const Box& box = receiver.box;
+  const vec3 origin = placement.inversePoint(line.origin);
+  const vec3 direction = placement.inverseDirection(line.direction) / placement.scale;
   enters = 0;
   leaves = std::numeric_limits<float>::infinity();
-  const vec3 slack = vec3(1e-5f) * (box.high - box.low + 1e-3f);
+  const vec3 slack = vec3(1e-5f) * (box.size() + 1e-3f);
   for (int i = 0; i < 3; ++i) {
     const float low = box.low[i] - slack[i] - origin[i], high = box.high[i] + slack[i] - origin[i];
     if (direction[i] == 0) {
@@ -49,9 +52,9 @@ bool meetBox(const ReceiverBox& box, const Line& line, float& enters, float& lea
   return enters <= leaves;
 }
 
-bool isSurface(const ReceiverBox& box) {
-  const vec3 size = box.high - box.low;
-  return std::min({size.x, size.y, size.z}) <= kFlatFraction * std::max({size.x, size.y, size.z});
+bool isSurface(const ReceiverBox& receiver) {
+  const vec3 size = receiver.box.size();
+  return std::min({size.x, size.y, size.z}) <= kFlatFraction * receiver.box.longestSide();
 }
 
 void addArrivals(const Line& line, std::span<const ReceiverBox> boxes, std::vector<Arrival>& arrivals) {
@@ -189,25 +192,16 @@ std::vector<ReceiverBox> receiverBoxes(const Scene& scene) {
   std::vector<ReceiverBox> boxes;
   for (const Object& object : scene.objects) {
     if (scene.isCaster(object)) continue;
-    const std::vector<vec3>& positions = scene.meshOf(object).positions;
-    ReceiverBox box{object.placement, positions[0], positions[0]};
-    for (const vec3& p : positions) {
-      box.low = min(box.low, p);
-      box.high = max(box.high, p);
-    }
-    boxes.push_back(box);
+    boxes.push_back({object.placement, boundingBox(scene.meshOf(object))});
   }
   return boxes;
 }
 
 float nearestAlong(vec3 axis, std::span<const ReceiverBox> boxes) {
   float nearest = std::numeric_limits<float>::infinity();
-  for (const ReceiverBox& box : boxes)
-    for (int i = 0; i < 8; ++i)
-      nearest = std::min(
-          nearest, dot(box.placement.point({(i & 1 ? box.high : box.low).x, (i & 2 ? box.high : box.low).y,
-                                            (i & 4 ? box.high : box.low).z}),
-                       axis));
+  for (const ReceiverBox& receiver : boxes)
+    for (const vec3& corner : placedCorners(receiver.box, receiver.placement))
+      nearest = std::min(nearest, dot(corner, axis));
   return nearest;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/box.h"
 #include "scene/scene.h"
 #include "techniques/planes/plane_set.h"
 
@@ -12,8 +13,7 @@ namespace nephroid {
 // The box of an opaque object's mesh, in the object's own space.
 struct ReceiverBox {
   Placement placement;
-  vec3 low{0};
-  vec3 high{0};
+  Box box;
 };
 
 std::vector<ReceiverBox> receiverBoxes(const Scene& scene);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "geometry/bounds.h"
 #include "geometry/curved_triangle.h"
 
 namespace nephroid {
@@ -59,15 +60,10 @@ float largestRise(const Mesh& mesh) {
 
 TableLayout layoutAround(const TableKey& key, const Mesh& mesh) {
   TableLayout layout = layoutOf(key);
-  layout.boxMinimum = mesh.positions.empty() ? vec3(0) : mesh.positions[0];
-  vec3 maximum = layout.boxMinimum;
-  for (const vec3& position : mesh.positions) {
-    layout.boxMinimum = glm::min(layout.boxMinimum, position);
-    maximum = glm::max(maximum, position);
-  }
+  const Box box = boundingBox(mesh);
   const float rise = largestRise(mesh);
-  layout.boxMinimum -= rise;
-  layout.boxExtent = maximum + rise - layout.boxMinimum;
+  layout.boxMinimum = box.low - rise;
+  layout.boxExtent = box.high + rise - layout.boxMinimum;
   return layout;
 }
 

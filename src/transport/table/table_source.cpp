@@ -26,11 +26,9 @@ bool mayHide(const Scene& scene) {
 }
 
 bool holdsAnother(const Scene& scene, const Object& object) {
-  const std::pair<vec3, vec3> bounds = worldBounds(scene, object);
+  const Box bounds = worldBounds(scene, object);
   return std::ranges::any_of(scene.objects, [&](const Object& other) {
-    if (&other == &object) return false;
-    const auto [low, high] = worldBounds(scene, other);
-    return glm::all(glm::greaterThan(low, bounds.first)) && glm::all(glm::lessThan(high, bounds.second));
+    return &other != &object && bounds.holdsInside(worldBounds(scene, other));
   });
 }
 

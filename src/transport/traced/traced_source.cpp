@@ -3,7 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/index_range.h"
-#include "geometry/mesh_checks.h"
+#include "geometry/bounds.h"
 #include "optics/refraction.h"
 #include "scene/volume.h"
 
@@ -19,11 +19,9 @@ MediumStack TracedSource::mediaAround(const Emitter& emitter) const {
   // Most lights stand in no caster's box, and then need no ray.
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    const vec3 place = object.placement.inversePoint(emitter.position);
-    auto [low, high] = boxes[object.mesh];
-    if (object.water) low.y = -std::numeric_limits<float>::infinity();  // its bottom is open
-    if (scene.isCaster(object) && glm::all(glm::greaterThanEqual(place, low)) &&
-        glm::all(glm::lessThanEqual(place, high)))
+    Box box = boxes[object.mesh];
+    if (object.water) box.low.y = -std::numeric_limits<float>::infinity();  // its bottom is open
+    if (scene.isCaster(object) && box.holds(object.placement.inversePoint(emitter.position)))
       return follower.mediaAround(emitter.position);
   }
   return {};
@@ -80,20 +78,20 @@ bool TracedSource::isVertexLit(const TransportQuery& query, uint32_t vertex) con
 // Judged by the boxes: apart along an axis of either, nothing of one is between the emitter and the other.
 bool TracedSource::mayBeShaded(const TransportQuery& query) const {
   const Object& caster = scene.objects[query.object];
-  const auto& [low, high] = boxes[caster.mesh];
-  const vec3 center = caster.placement.point(0.5f * (low + high));
-  const float radius = 0.5f * length(high - low) * caster.placement.scale;
+  const Box& box = boxes[caster.mesh];
+  const vec3 center = caster.placement.point(box.center());
+  const float radius = 0.5f * box.diagonal() * caster.placement.scale;
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {
     if (i == query.object) continue;
     const Object& other = scene.objects[i];
-    const auto& [otherLow, otherHigh] = boxes[other.mesh];
+    const Box& otherBox = boxes[other.mesh];
     const vec3 to = other.placement.inversePoint(center);
     const float reach = radius / other.placement.scale;
     const vec3 from = query.emitter.type == kEmitterDirectional
                           ? to - 1e20f * other.placement.inverseDirection(query.emitter.direction)
                           : other.placement.inversePoint(query.emitter.position);
-    if (glm::all(glm::greaterThanEqual(glm::max(from, to + reach), otherLow)) &&
-        glm::all(glm::lessThanEqual(glm::min(from, to - reach), otherHigh)))
+    if (glm::all(glm::greaterThanEqual(glm::max(from, to + reach), otherBox.low)) &&
+        glm::all(glm::lessThanEqual(glm::min(from, to - reach), otherBox.high)))
       return true;
   }
   return false;

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/box.h"
 #include "transport/follow.h"
 #include "transport/source.h"
 
@@ -38,7 +39,7 @@ class TracedSource : public TransportSource {
 
   const Scene& scene;
   Follower follower;
-  std::vector<std::pair<vec3, vec3>> boxes;  // of the meshes, in their own space
+  std::vector<Box> boxes;  // of the meshes, in their own space
 };
 
 }  // namespace nephroid
