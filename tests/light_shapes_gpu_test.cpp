@@ -45,6 +45,7 @@ const std::vector<vec3> kWalls{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0,
 Scene room(const Light& light) {
   Scene scene;
   scene.camera.position = {0, 0, 0};
+  scene.camera.target = {0, 0, -1};
   scene.camera.verticalFov = 90;
   scene.materials.push_back({.name = "white", .color = vec3(1)});
   scene.meshes.push_back(makePlane({4, 4}));
