@@ -43,7 +43,7 @@ Luminance luminanceOf(vec4 albedo, vec3 directLight, vec3 causticsLight) {
 }
 
 // A macro, since images are chosen by constants alone.
-#define LUMINANCE_OF(which, pixel)                                                                  \
+#define LUMINANCE_OF(which, pixel)                                                             \
   luminanceOf(texelFetch(albedo[which], pixel, 0), texelFetch(directLux[which], pixel, 0).rgb, \
               texelFetch(causticsLux[which], pixel, 0).rgb)
 
