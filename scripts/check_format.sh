@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every C++ file is as .clang-format says. Versions of clang-format differ in small things, so one of them decides.
+# Every C++ file and every shader is as .clang-format says. Versions of clang-format differ in small things, so one of them decides.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 deciding=14
@@ -10,4 +10,4 @@ if [ "$version" != "$deciding" ]; then
   echo "Not checked: clang-format $deciding decides, here is ${version:-none}"
   exit 0
 fi
-git ls-files '*.h' '*.cpp' | xargs -r "$program" --dry-run -Werror
+git ls-files '*.h' '*.cpp' '*.vert' '*.frag' '*.comp' | xargs -r "$program" --dry-run -Werror

@@ -1,9 +1,11 @@
-// Finds for each tile of pixels the beams that may light it, down the hierarchy of beams, and lists them as squares of pixels to
-// draw (Barczak and Olano, 3.3: culling by the view and clamping to receivers in one, against what is really seen).
+// Finds for each tile of pixels the beams that may light it, down the hierarchy of beams, and lists them as
+// squares of pixels to draw (Barczak and Olano, 3.3: culling by the view and clamping to receivers in one,
+// against what is really seen).
 //
-// A subgroup has a tile, and takes it in patches: pixels that show nearly one plane, where a beam's footprint on that plane tells
-// which pixels it may light. The order of one tile's draws is always the same, which alone matters. A software device passes at
-// least once through each loop, and through all that stands under a condition: so loops follow each other and are not nested.
+// A subgroup has a tile, and takes it in patches: pixels that show nearly one plane, where a beam's footprint
+// on that plane tells which pixels it may light. The order of one tile's draws is always the same, which
+// alone matters. A software device passes at least once through each loop, and through all that stands under
+// a condition: so loops follow each other and are not nested.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -16,7 +18,9 @@
 
 layout(constant_id = 0) const uint kIsFlat = 0;  // every beam is asked for, without the hierarchy
 layout(local_size_x = kThreads) in;
-layout(push_constant, scalar) uniform Constants { PatchConstants constants; };
+layout(push_constant, scalar) uniform Constants {
+  PatchConstants constants;
+};
 layout(rgba32f) uniform readonly image2D receiverPosition;
 layout(rgba32f) uniform readonly image2D receiverNormal;
 layout(rgba32f) uniform image2D axesU;
@@ -39,15 +43,18 @@ float finestStep(vec3 point) {
   return 1e-6 * max(max(size.x, size.y), size.z);
 }
 
-// m from one pixel to the next on the tangent plane; of its two neighbours the one that lies nearer to it. None where a caster shows
-// both of them what it shows the pixel.
+// m from one pixel to the next on the tangent plane; of its two neighbours the one that lies nearer to it.
+// None where a caster shows both of them what it shows the pixel.
 vec3 stepAlong(ivec2 at, ivec2 along, vec3 point, vec3 normal) {
   const vec4 next = imageLoad(receiverPosition, at + along), last = imageLoad(receiverPosition, at - along);
   const vec3 forward = next.xyz - point, backward = point - last.xyz;
-  const vec3 onward = forward - normal * dot(forward, normal), back = backward - normal * dot(backward, normal);
+  const vec3 onward = forward - normal * dot(forward, normal),
+             back = backward - normal * dot(backward, normal);
   const float forwardStep = length(onward), backwardStep = length(back), finest = finestStep(point);
-  const float forwardOff = next.w != 0 && forwardStep > finest ? abs(dot(forward, normal)) + 0.1 * forwardStep : 1e30;
-  const float backwardOff = last.w != 0 && backwardStep > finest ? abs(dot(backward, normal)) + 0.1 * backwardStep : 1e30;
+  const float forwardOff =
+      next.w != 0 && forwardStep > finest ? abs(dot(forward, normal)) + 0.1 * forwardStep : 1e30;
+  const float backwardOff =
+      last.w != 0 && backwardStep > finest ? abs(dot(backward, normal)) + 0.1 * backwardStep : 1e30;
   if (min(forwardOff, backwardOff) == 1e30) return vec3(0);
   return forwardOff <= backwardOff ? onward : back;
 }
@@ -61,7 +68,8 @@ ReceiverSquare squareAt(ivec2 at) {
   vec3 stepV = stepAlong(at, ivec2(0, 1), square.point, square.normal);
   // A pixel without neighbours is taken for a small square.
   if (stepU == vec3(0) && stepV == vec3(0))
-    stepU = max(16 * finestStep(square.point), 1e-6) * normalize(cross(square.normal, square.normal.yzx + vec3(0, 0, 1)));
+    stepU = max(16 * finestStep(square.point), 1e-6) *
+            normalize(cross(square.normal, square.normal.yzx + vec3(0, 0, 1)));
   if (stepU == vec3(0)) stepU = cross(stepV, square.normal);
   if (stepV == vec3(0)) stepV = cross(square.normal, stepU);
   vec3 area = cross(stepU, stepV);
@@ -83,8 +91,9 @@ vec4 leastInSubgroup(vec4 v) {
 
 BeamBounds boundsAt(uint index) {
   const ivec2 texel = firstTexel(index, kTexelsOfBounds);
-  return boundsFromTexels(texelFetch(boundsTexels, texel, 0), texelFetch(boundsTexels, texel + ivec2(1, 0), 0),
-                          texelFetch(boundsTexels, texel + ivec2(2, 0), 0), texelFetch(boundsTexels, texel + ivec2(3, 0), 0));
+  return boundsFromTexels(
+      texelFetch(boundsTexels, texel, 0), texelFetch(boundsTexels, texel + ivec2(1, 0), 0),
+      texelFetch(boundsTexels, texel + ivec2(2, 0), 0), texelFetch(boundsTexels, texel + ivec2(3, 0), 0));
 }
 
 Beam beamAt(uint index) {
@@ -94,11 +103,16 @@ Beam beamAt(uint index) {
   return beamFromTexels(rays);
 }
 
-uint thread() { return gl_SubgroupInvocationID; }
+uint thread() {
+  return gl_SubgroupInvocationID;
+}
 
-ivec2 placeInTile(uint pixel) { return ivec2(pixel % kTileSize, pixel / kTileSize); }
+ivec2 placeInTile(uint pixel) {
+  return ivec2(pixel % kTileSize, pixel / kTileSize);
+}
 
-// Whether any beam may light what a tile shows. Its pixels' squares reach half as far to one side as its neighbours lie to the other.
+// Whether any beam may light what a tile shows. Its pixels' squares reach half as far to one side as its
+// neighbours lie to the other.
 bool isWithinBeams(ivec2 tile) {
   vec4 low = vec4(1e30), high = vec4(-1e30);
   const uint width = kTileSize + 2;
@@ -114,7 +128,8 @@ bool isWithinBeams(ivec2 tile) {
   bool meets = false;
   for (uint child = thread(); child < kChildren; child += gl_SubgroupSize) {
     const BeamBounds bounds = boundsAt(constants.root + child);
-    meets = meets || (bounds.nearest <= bounds.farthest && boundsMeetBox(bounds, low.xyz - margin, high.xyz + margin));
+    meets = meets ||
+            (bounds.nearest <= bounds.farthest && boundsMeetBox(bounds, low.xyz - margin, high.xyz + margin));
   }
   return low.x <= high.x && subgroupBallot(meets) != uvec4(0);
 }
@@ -134,11 +149,12 @@ uint storeSquares(ivec2 tile, uint pixels) {
 }
 
 ReceiverSquare loadSquare(ivec2 place) {
-  return squareFromTexels(imageLoad(receiverPosition, place).xyz, imageLoad(axesU, place), imageLoad(axesV, place));
+  return squareFromTexels(imageLoad(receiverPosition, place).xyz, imageLoad(axesU, place),
+                          imageLoad(axesV, place));
 }
 
-// The boxes that what the four blocks of a tile show fills on a patch's plane, in pixels from the patch's own. A block without any
-// of the patch has negative sizes.
+// The boxes that what the four blocks of a tile show fills on a patch's plane, in pixels from the patch's
+// own. A block without any of the patch has negative sizes.
 struct Blocks {
   vec4 middleX, middleY;
   vec4 halfX, halfY;
@@ -155,7 +171,8 @@ struct Patch {
 
 Blocks blocksBetween(vec4 lowX, vec4 lowY, vec4 highX, vec4 highY) {
   const float rounding = 0.01;
-  return Blocks(0.5 * (lowX + highX), 0.5 * (lowY + highY), 0.5 * (highX - lowX) + rounding, 0.5 * (highY - lowY) + rounding);
+  return Blocks(0.5 * (lowX + highX), 0.5 * (lowY + highY), 0.5 * (highX - lowX) + rounding,
+                0.5 * (highY - lowY) + rounding);
 }
 
 // Takes from `waiting` the pixels that lie well with the square at `chosen`, and names them.
@@ -196,7 +213,8 @@ Patch takePatch(ivec2 tile, ivec2 chosen, bool isLast, float id, inout uint wait
   }
   low = leastInSubgroup(low);
   high = -leastInSubgroup(-high);
-  const Blocks blocks = blocksBetween(leastInSubgroup(lowX), leastInSubgroup(lowY), -leastInSubgroup(-highX), -leastInSubgroup(-highY));
+  const Blocks blocks = blocksBetween(leastInSubgroup(lowX), leastInSubgroup(lowY), -leastInSubgroup(-highX),
+                                      -leastInSubgroup(-highY));
   return Patch(plane, low.xyz, high.xyz, blocks, low.w, high.w, -leastInSubgroup(vec4(-spread)).x);
 }
 
@@ -206,7 +224,8 @@ vec4 isWithin(Blocks blocks, vec2 a, vec2 b, vec2 c, float rim) {
   const float corner = dot(across, c - a);
   const vec4 middle = across.x * (blocks.middleX - a.x) + across.y * (blocks.middleY - a.y);
   const vec4 reach = abs(across.x) * (blocks.halfX + rim) + abs(across.y) * (blocks.halfY + rim);
-  return vec4(greaterThanEqual(middle + reach, vec4(min(corner, 0)))) * vec4(lessThanEqual(middle - reach, vec4(max(corner, 0))));
+  return vec4(greaterThanEqual(middle + reach, vec4(min(corner, 0)))) *
+         vec4(lessThanEqual(middle - reach, vec4(max(corner, 0))));
 }
 
 // Which blocks a beam may light, one bit each.
@@ -217,19 +236,22 @@ uint blocksLitBy(Beam beam, Patch shown) {
     const float approach = -dot(beam.direction[i], shown.plane.normal);
     const vec3 ahead = shown.plane.point - beam.position[i];
     const vec3 perHeight = beam.direction[i] / max(approach, 1e-4);
-    const vec3 offset = -(dot(ahead, shown.plane.normal) + 0.5 * (shown.heightLow + shown.heightHigh)) * perHeight - ahead;
+    const vec3 offset =
+        -(dot(ahead, shown.plane.normal) + 0.5 * (shown.heightLow + shown.heightHigh)) * perHeight - ahead;
     corners[i] = vec2(dot(offset, shown.plane.axisU), dot(offset, shown.plane.axisV));
     const vec2 slope = abs(vec2(dot(perHeight, shown.plane.axisU), dot(perHeight, shown.plane.axisV)));
     rim = max(rim, 0.5 * (shown.heightHigh - shown.heightLow) * max(slope.x, slope.y));
     flattest = min(flattest, approach);
   }
-  const vec2 low = min(min(corners[0], corners[1]), corners[2]) - rim, high = max(max(corners[0], corners[1]), corners[2]) + rim;
+  const vec2 low = min(min(corners[0], corners[1]), corners[2]) - rim,
+             high = max(max(corners[0], corners[1]), corners[2]) + rim;
   const Blocks blocks = shown.blocks;
   vec4 lit = vec4(greaterThanEqual(blocks.middleX + blocks.halfX, vec4(low.x))) *
              vec4(lessThanEqual(blocks.middleX - blocks.halfX, vec4(high.x))) *
              vec4(greaterThanEqual(blocks.middleY + blocks.halfY, vec4(low.y))) *
              vec4(lessThanEqual(blocks.middleY - blocks.halfY, vec4(high.y))) *
-             isWithin(blocks, corners[0], corners[1], corners[2], rim) * isWithin(blocks, corners[1], corners[2], corners[0], rim) *
+             isWithin(blocks, corners[0], corners[1], corners[2], rim) *
+             isWithin(blocks, corners[1], corners[2], corners[0], rim) *
              isWithin(blocks, corners[2], corners[0], corners[1], rim);
   // Rays that run along the plane cross it anywhere.
   if (flattest < 0.1) lit = vec4(1);
@@ -252,11 +274,14 @@ void list(uint index, bool isThere, ivec2 tile, uint id, Patch shown) {
     atomicAdd(constants.counts.drawn, count);
     if (begin + count > constants.room) atomicMax(constants.counts.wanted, begin + count);
   }
-  const uint place = subgroupBroadcastFirst(begin) + subgroupBallotExclusiveBitCount(once) + subgroupBallotExclusiveBitCount(twice);
+  const uint place = subgroupBroadcastFirst(begin) + subgroupBallotExclusiveBitCount(once) +
+                     subgroupBallotExclusiveBitCount(twice);
   const uint first = isWhole ? 0 : findLSB(blocks), last = findMSB(blocks);
   const uint square = (isWhole ? kTileSize : kBlockSize) | (id << 8), portion = bounds.kind >> kPortionShift;
-  const uvec2 a = uvec2(tile) + kBlockSize * uvec2(first & 1, first >> 1), b = uvec2(tile) + kBlockSize * uvec2(last & 1, last >> 1);
-  if (blocks != 0 && place < constants.room) constants.draws.draw[place] = BeamDraw(bounds.first, portion, a.x | (a.y << 16), square);
+  const uvec2 a = uvec2(tile) + kBlockSize * uvec2(first & 1, first >> 1),
+              b = uvec2(tile) + kBlockSize * uvec2(last & 1, last >> 1);
+  if (blocks != 0 && place < constants.room)
+    constants.draws.draw[place] = BeamDraw(bounds.first, portion, a.x | (a.y << 16), square);
   if (bitCount(blocks) == 2 && place + 1 < constants.room)
     constants.draws.draw[place + 1] = BeamDraw(bounds.first, portion, b.x | (b.y << 16), square);
 }
@@ -264,7 +289,8 @@ void list(uint index, bool isThere, ivec2 tile, uint id, Patch shown) {
 // Takes a patch down the hierarchy, the threads one bound each.
 void listBeamsOf(Patch shown, ivec2 tile, uint id, inout uint tested, inout uint met) {
   const uint threads = gl_SubgroupSize;
-  const uint firstGroup = gl_SubgroupID * threads * kGroupsAThread, firstBeam = gl_SubgroupID * threads * kBeamsAThread;
+  const uint firstGroup = gl_SubgroupID * threads * kGroupsAThread,
+             firstBeam = gl_SubgroupID * threads * kBeamsAThread;
   const uint threadsOfGroup = min(threads, kChildren);
   uint waitingGroups = kChildren / threadsOfGroup;
   if (thread() < waitingGroups) groups[firstGroup + thread()] = constants.root + thread() * threadsOfGroup;
@@ -283,9 +309,11 @@ void listBeamsOf(Patch shown, ivec2 tile, uint id, inout uint tested, inout uint
       const BeamBounds bounds = boundsAt(index);
       const bool isThere = thread() < threadsOfGroup * asked && bounds.nearest <= bounds.farthest;
       const bool isBeam = (bounds.kind & kIsBeam) != 0;
-      const bool meets = isThere && (boundsMeetBox(bounds, shown.low, shown.high) || (kIsFlat != 0 && !isBeam));
+      const bool meets =
+          isThere && (boundsMeetBox(bounds, shown.low, shown.high) || (kIsFlat != 0 && !isBeam));
       const uvec4 inner = subgroupBallot(meets && !isBeam), ends = subgroupBallot(meets && isBeam);
-      const uint place = firstGroup + waitingGroups + kChildren / threadsOfGroup * subgroupBallotExclusiveBitCount(inner);
+      const uint place =
+          firstGroup + waitingGroups + kChildren / threadsOfGroup * subgroupBallotExclusiveBitCount(inner);
       if (meets && !isBeam) {
         groups[place] = bounds.first;
         if (threadsOfGroup < kChildren) groups[place + 1] = bounds.first + threadsOfGroup;
@@ -300,7 +328,8 @@ void listBeamsOf(Patch shown, ivec2 tile, uint id, inout uint tested, inout uint
     }
     uint begin = 0;
     for (; begin < waitingBeams; begin += threads)
-      list(beams[firstBeam + min(begin + thread(), waitingBeams - 1)], begin + thread() < waitingBeams, tile, id, shown);
+      list(beams[firstBeam + min(begin + thread(), waitingBeams - 1)], begin + thread() < waitingBeams, tile,
+           id, shown);
     isCutShort = isCutShort || begin < waitingBeams;
     subgroupMemoryBarrierShared();
     subgroupBarrier();
@@ -321,7 +350,8 @@ void listBeamsOfTile(uvec2 tile, inout uint tested, inout uint met) {
     // The middle one where it waits.
     const uint middleThread = gl_SubgroupSize / 2, middleBit = 1u << (pixelsOfThread / 2);
     const uint mine = (waiting & middleBit) != 0 ? pixelsOfThread / 2 : findLSB(waiting);
-    const uint from = subgroupBallotBitExtract(threads, middleThread) ? middleThread : subgroupBallotFindLSB(threads);
+    const uint from =
+        subgroupBallotBitExtract(threads, middleThread) ? middleThread : subgroupBallotFindLSB(threads);
     const ivec2 chosen = placeInTile(subgroupShuffle(mine, from) * gl_SubgroupSize + from);
     const Patch patchOfPixels = takePatch(corner, chosen, number == kMostPatches, float(id), waiting);
     listBeamsOf(patchOfPixels, corner, id, tested, met);
