@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Every C++ file and every shader is as .clang-format says. Versions of clang-format differ in small things, so one of them decides.
+# Every C++ file and every shader is as .clang-format says. Versions of clang-format differ in small things, so
+# one of them decides.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 deciding=14
