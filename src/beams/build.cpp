@@ -11,6 +11,7 @@
 #include "geometry/bounds.h"
 #include "geometry/curved_triangle.h"
 #include "lights/light_in_air.h"
+#include "transport/refined_triangle.h"
 
 namespace nephroid {
 namespace {
@@ -29,25 +30,6 @@ struct Corner {
   OutgoingRay ray{};
 };
 using Triangle = std::array<Corner, 3>;
-
-// A triangle of the caster's mesh. World space.
-struct Surface {
-  mat3 positions{1};  // a corner a column
-  mat3 normals{1};
-  vec3 geometricNormal{0};
-  uint32_t patch = 0;
-  bool isCurved = false;
-
-  SurfacePoint at(vec3 weights) const {
-    SurfacePoint point;
-    point.position = point.flatPosition = positions * weights;
-    if (isCurved) point.position += curvedOffset(point.flatPosition, weights, positions, normals);
-    point.normal = normalize(normals * weights);
-    point.geometricNormal = geometricNormal;
-    point.patch = patch;
-    return point;
-  }
-};
 
 // The rays at the mesh's vertices.
 struct VertexRays {
@@ -70,12 +52,12 @@ struct VertexRays {
   }
 };
 
-// Makes the beams of one triangle of the mesh.
+// Makes the beams of one triangle of the mesh: the rules that it is refined by.
 class Builder {
  public:
   Builder(const Scene& sceneOf, const TransportSource& sourceOf, const TransportQuery& queryOf,
-          const ShapedLight& lightOf, vec3 color, const BeamSettings& settingsOf, const Surface& surfaceOf,
-          const VertexRays& verticesOf)
+          const ShapedLight& lightOf, vec3 color, const BeamSettings& settingsOf,
+          const CasterTriangle& surfaceOf, const VertexRays& verticesOf)
       : scene(sceneOf),
         source(sourceOf),
         query(queryOf),
@@ -94,11 +76,53 @@ class Builder {
     if (vertices.areOnEdges && source.refines(query) && !sameWay(triangle))
       for (Corner& corner : triangle)
         corner = {corner.weights, corner.position, kNone, rayWithin(triangle, corner.weights)};
-    if (source.refines(query) && forcedCuts > 0) {
-      cut(triangle, settings.refineDepth, forcedCuts, set);
-    } else {
-      refine(triangle, settings.refineDepth, set);
+    refineTriangle(*this, triangle, settings.refineDepth, source.refines(query) ? forcedCuts : 0, set);
+  }
+
+  Refining judge(const Triangle& t, uint32_t cuts, BeamSet& set) const {
+    if (!source.refines(query) || cuts == 0) {
+      keep(t, set);
+    } else if (isShadowEdge(t)) {
+      clip(t, cuts - 1, set);
+    } else if (!sameWay(t)) {
+      return Refining::cut;
+    } else if (arrives(t[0].ray)) {
+      const bool isEven = settings.targets.empty() || (settings.isEvenAtSurface && leavesWhereItMeets(t));
+      if (!isEven) return Refining::askMiddles;
+      keep(t, set);
     }
+    return Refining::done;
+  }
+
+  Corner middle(const Triangle& t, std::size_t side) const { return between(t, t[side], t[(side + 1) % 3]); }
+
+  bool isStraight(const Triangle& t, const Triangle& middles) const {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!arrives(middles[i].ray) || middles[i].ray.signature != t[0].ray.signature ||
+          bends(t[i], t[(i + 1) % 3], middles[i]))
+        return false;
+    return true;
+  }
+
+  void countCut(BeamSet& set) const { ++set.refined; }
+
+  void keep(const Triangle& t, BeamSet& set) const {
+    const vec3 flux = incident(t);
+    if (sameWay(t)) {
+      if (!arrives(t[0].ray)) return;
+      Beam beam{};
+      for (int i = 0; i < 3; ++i) {
+        beam.position[i] = t[i].ray.position;
+        beam.direction[i] = t[i].ray.direction;
+        beam.flux += flux * t[i].ray.transmittance / 3.0f;
+        beam.reach[i] = t[i].ray.reach;
+      }
+      set.beams.push_back(beam);
+      return;
+    }
+    ++set.split;
+    for (int i = 0; i < 3; ++i)
+      if (arrives(t[i].ray)) emitThird(t, i, flux * t[i].ray.transmittance / 3.0f, set);
   }
 
  private:
@@ -140,9 +164,8 @@ class Builder {
   }
 
   OutgoingRay rayWithin(const Triangle& t, vec3 weights) const {
-    const vec3 center = (t[0].weights + t[1].weights + t[2].weights) / 3.0f;
-    return source.rayAt(query,
-                        surface.at(mix(weights, center, vertices.areOnEdges ? kInsetOnEdges : kInset)));
+    const float inset = vertices.areOnEdges ? kInsetOnEdges : kInset;
+    return source.rayAt(query, surface.at(mix(weights, middleWeights(t), inset)));
   }
 
   // Whether the ray at a side's middle lies off the middle of the rays at its ends by more than the
@@ -161,21 +184,6 @@ class Builder {
     return false;
   }
 
-  void refine(const Triangle& t, uint32_t depth, BeamSet& set) const {
-    if (!source.refines(query) || depth == 0) return emit(t, set);
-    if (isShadowEdge(t)) return clip(t, depth - 1, set);
-    if (!sameWay(t)) return cut(t, depth - 1, 0, set);
-    if (!arrives(t[0].ray)) return;
-    if (settings.targets.empty() || (settings.isEvenAtSurface && leavesWhereItMeets(t))) return emit(t, set);
-    const std::array<Corner, 3> middles = middlesOf(t);
-    bool keep = true;
-    for (int i = 0; i < 3 && keep; ++i)
-      keep = arrives(middles[i].ray) && middles[i].ray.signature == t[0].ray.signature &&
-             !bends(t[i], t[(i + 1) % 3], middles[i]);
-    if (keep) return emit(t, set);
-    cutAt(t, middles, depth - 1, 0, set);
-  }
-
   static bool isDark(const Corner& corner) { return corner.ray.flags == kRayOccluded; }
 
   // Whether some corners are in shadow and the others go one way.
@@ -188,7 +196,7 @@ class Builder {
   }
 
   // Goes on with the lit part of a triangle, which a straight line parts from the dark one.
-  void clip(const Triangle& t, uint32_t depth, BeamSet& set) const {
+  void clip(const Triangle& t, uint32_t cuts, BeamSet& set) const {
     ++set.refined;
     std::size_t first = 0;  // the corner that is alone, in the light or in the dark
     while (isDark(t[first]) == isDark(t[(first + 1) % 3]) || isDark(t[first]) == isDark(t[(first + 2) % 3]))
@@ -196,10 +204,11 @@ class Builder {
     const Corner &alone = t[first], &next = t[(first + 1) % 3], &last = t[(first + 2) % 3];
     if (isDark(alone)) {
       const Corner towardNext = edgeOfShadow(t, next, alone), towardLast = edgeOfShadow(t, last, alone);
-      refine({towardNext, next, last}, depth, set);
-      refine({towardNext, last, towardLast}, depth, set);
+      refineTriangle(*this, Triangle{towardNext, next, last}, cuts, 0, set);
+      refineTriangle(*this, Triangle{towardNext, last, towardLast}, cuts, 0, set);
     } else {
-      refine({alone, edgeOfShadow(t, alone, next), edgeOfShadow(t, alone, last)}, depth, set);
+      refineTriangle(*this, Triangle{alone, edgeOfShadow(t, alone, next), edgeOfShadow(t, alone, last)}, cuts,
+                     0, set);
     }
   }
 
@@ -214,47 +223,6 @@ class Builder {
     Corner edge{0.5f * (lit.weights + dark.weights), 0.5f * (lit.position + dark.position), kNone, lit.ray};
     edge.ray.position += edge.position - lit.position;
     return edge;
-  }
-
-  std::array<Corner, 3> middlesOf(const Triangle& t) const {
-    return {between(t, t[0], t[1]), between(t, t[1], t[2]), between(t, t[2], t[0])};
-  }
-
-  void cut(const Triangle& t, uint32_t depth, uint32_t forcedCuts, BeamSet& set) const {
-    cutAt(t, middlesOf(t), depth, forcedCuts, set);
-  }
-
-  void cutAt(const Triangle& t, const std::array<Corner, 3>& m, uint32_t depth, uint32_t forcedCuts,
-             BeamSet& set) const {
-    ++set.refined;
-    const Triangle parts[4] = {
-        {t[0], m[0], m[2]}, {m[0], t[1], m[1]}, {m[2], m[1], t[2]}, {m[0], m[1], m[2]}};
-    for (const Triangle& part : parts) {
-      if (forcedCuts > 1) {
-        cut(part, depth, forcedCuts - 1, set);
-      } else {
-        refine(part, depth, set);
-      }
-    }
-  }
-
-  void emit(const Triangle& t, BeamSet& set) const {
-    const vec3 flux = incident(t);
-    if (sameWay(t)) {
-      if (!arrives(t[0].ray)) return;
-      Beam beam{};
-      for (int i = 0; i < 3; ++i) {
-        beam.position[i] = t[i].ray.position;
-        beam.direction[i] = t[i].ray.direction;
-        beam.flux += flux * t[i].ray.transmittance / 3.0f;
-        beam.reach[i] = t[i].ray.reach;
-      }
-      set.beams.push_back(beam);
-      return;
-    }
-    ++set.split;
-    for (int i = 0; i < 3; ++i)
-      if (arrives(t[i].ray)) emitThird(t, i, flux * t[i].ray.transmittance / 3.0f, set);
   }
 
   // The part of a triangle nearest to one of its corners goes the corner's way.
@@ -305,22 +273,18 @@ class Builder {
   const ShapedLight& light;
   const vec3 bandColor;
   const BeamSettings& settings;
-  const Surface& surface;
+  const CasterTriangle& surface;
   const VertexRays& vertices;
   const float facing;  // -1 where the light stands inside the caster and meets its triangles from behind
 };
 
-Surface surfaceOf(const Object& object, const Mesh& mesh, const uvec3& triangle) {
-  Surface surface;
+CasterTriangle casterTriangle(const Object& object, const Mesh& mesh, const uvec3& triangle) {
+  mat3 positions, normals;
   for (int i = 0; i < 3; ++i) {
-    surface.positions[i] = object.placement.point(mesh.positions[triangle[i]]);
-    surface.normals[i] = object.placement.direction(mesh.normals[triangle[i]]);
+    positions[i] = object.placement.point(mesh.positions[triangle[i]]);
+    normals[i] = object.placement.direction(mesh.normals[triangle[i]]);
   }
-  const vec3 doubledArea =
-      cross(surface.positions[1] - surface.positions[0], surface.positions[2] - surface.positions[0]);
-  surface.geometricNormal = doubledArea / std::max(length(doubledArea), 1e-30f);
-  surface.isCurved = mesh.isCurved;
-  return surface;
+  return {positions, normals, mesh.isCurved};
 }
 
 uint32_t forcedCutsFor(const Mesh& mesh, const uvec3& t, float extent) {
@@ -361,7 +325,7 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
     const std::size_t end = std::min(mesh.triangles.size(), (block + 1) * kBlock);
     for (std::size_t t = block * kBlock; t < end; ++t) {
       if (object.water && isLostToShadow(*object.water, vertices, t, settings.shadowTolerance)) continue;
-      const Surface surface = surfaceOf(object, mesh, mesh.triangles[t]);
+      const CasterTriangle surface = casterTriangle(object, mesh, mesh.triangles[t]);
       Triangle triangle;
       for (int i = 0; i < 3; ++i) {
         const uint32_t vertex = mesh.triangles[t][i];

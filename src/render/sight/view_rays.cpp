@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "core/index_range.h"
-#include "geometry/curved_triangle.h"
 #include "optics/refraction.h"
 #include "scene/framing.h"
+#include "transport/refined_triangle.h"
 
 namespace nephroid {
 namespace {
@@ -67,37 +67,56 @@ bool isLost(const OutgoingRay& ray) {
   return (ray.flags & kRayLost) != 0;
 }
 
-// Cuts one triangle of the mesh where its rays part.
+// Cuts one triangle of the mesh where its rays part: the rules that it is refined by.
 class Cutter {
  public:
   Cutter(const TransportSource& sourceToAsk, const TransportQuery& queryOf, const View& viewOf,
-         float smallest, float sizeOfCaster, bool curved, const Triangle& whole)
+         float smallest, float sizeOfCaster, const CasterTriangle& surfaceOf)
       : source(sourceToAsk),
         query(queryOf),
         view(viewOf),
         smallestSide(smallest),
         size(sizeOfCaster),
-        isCurved(curved) {
-    for (int i = 0; i < 3; ++i) {
-      positions[i] = whole[std::size_t(i)].position;
-      normals[i] = whole[std::size_t(i)].normal;
-    }
-    geometricNormal = normalize(cross(positions[1] - positions[0], positions[2] - positions[0]));
+        surface(surfaceOf) {}
+
+  Refining judge(const Triangle& t, uint32_t cuts, std::vector<Triangle>& pieces) const {
+    if (isOutside(view, t)) return Refining::done;
+    const float longest = std::max({pixels(t[0], t[1]), pixels(t[1], t[2]), pixels(t[2], t[0])});
+    const bool isEven = isSteady(t);
+    if (cuts > 0 && longest >= (isEven ? kLongestStraightSide : smallestSide))
+      return isEven ? Refining::askMiddles : Refining::cut;
+    keep(isEven ? t : ofOneRay(t), pieces);
+    return Refining::done;
   }
 
-  void add(const Triangle& triangle, std::vector<Triangle>& pieces) const {
-    refine(triangle, kMostCuts, pieces);
+  // Rays go evenly along a short side whose ends go the same way.
+  Corner middle(const Triangle& t, std::size_t side) const {
+    const Corner &a = t[side], &b = t[(side + 1) % 3];
+    const vec3 weights = 0.5f * (a.weights + b.weights);
+    if (!sameWay(a, b) || pixels(a, b) > kLongestStraightSide) return at(weights, middleWeights(t));
+    Corner middle{weights, surface.positions * weights, normalize(surface.normals * weights), a.ray};
+    middle.ray.position = 0.5f * (a.ray.position + b.ray.position);
+    middle.ray.direction = normalize(a.ray.direction + b.ray.direction);
+    middle.ray.transmittance = 0.5f * (a.ray.transmittance + b.ray.transmittance);
+    middle.ray.reach = std::max(a.ray.reach, b.ray.reach) < kUnboundedReach
+                           ? 0.5f * (a.ray.reach + b.ray.reach)
+                           : kUnboundedReach;
+    return middle;
   }
+
+  bool isStraight(const Triangle& t, const Triangle& middles) const {
+    return !bends(t[0], t[1], middles[0]) && !bends(t[1], t[2], middles[1]) && !bends(t[2], t[0], middles[2]);
+  }
+
+  void keep(const Triangle& t, std::vector<Triangle>& pieces) const { pieces.push_back(t); }
+
+  void countCut(std::vector<Triangle>&) const {}
 
  private:
+  // Its ray starts a little toward `center`, off edges where two surfaces meet.
   Corner at(vec3 weights, vec3 center) const {
-    const vec3 inside = mix(weights, center, kInset);
-    SurfacePoint point;
-    point.position = point.flatPosition = positions * inside;
-    if (isCurved) point.position += curvedOffset(point.flatPosition, inside, positions, normals);
-    point.normal = normalize(normals * inside);
-    point.geometricNormal = geometricNormal;
-    return {weights, positions * weights, normalize(normals * weights), source.rayAt(query, point)};
+    return {weights, surface.positions * weights, normalize(surface.normals * weights),
+            source.rayAt(query, surface.at(mix(weights, center, kInset)))};
   }
 
   float pixels(const Corner& a, const Corner& b) const {
@@ -112,20 +131,8 @@ class Cutter {
            distance(a.ray.position, b.ray.position) < kMostShift * size;
   }
 
-  // Rays go evenly along a short side whose ends go the same way.
-  Corner between(const Triangle& t, std::size_t side) const {
-    const Corner &a = t[side], &b = t[(side + 1) % 3];
-    const vec3 weights = 0.5f * (a.weights + b.weights);
-    if (!sameWay(a, b) || pixels(a, b) > kLongestStraightSide)
-      return at(weights, (t[0].weights + t[1].weights + t[2].weights) / 3.0f);
-    Corner middle{weights, positions * weights, normalize(normals * weights), a.ray};
-    middle.ray.position = 0.5f * (a.ray.position + b.ray.position);
-    middle.ray.direction = normalize(a.ray.direction + b.ray.direction);
-    middle.ray.transmittance = 0.5f * (a.ray.transmittance + b.ray.transmittance);
-    middle.ray.reach = std::max(a.ray.reach, b.ray.reach) < kUnboundedReach
-                           ? 0.5f * (a.ray.reach + b.ray.reach)
-                           : kUnboundedReach;
-    return middle;
+  bool isSteady(const Triangle& t) const {
+    return sameWay(t[0], t[1]) && sameWay(t[0], t[2]) && sameWay(t[1], t[2]);
   }
 
   // Whether the ray at a side's middle is off the mean of those at its ends.
@@ -135,24 +142,6 @@ class Cutter {
     return distance(middle.ray.direction, normalize(a.ray.direction + b.ray.direction)) >
                kMostBend * view.pixelAngle ||
            distance(middle.ray.position, 0.5f * (a.ray.position + b.ray.position)) > kMostBend * pixel;
-  }
-
-  void refine(const Triangle& t, uint32_t cuts, std::vector<Triangle>& pieces) const {
-    if (isOutside(view, t)) return;
-    const float longest = std::max({pixels(t[0], t[1]), pixels(t[1], t[2]), pixels(t[2], t[0])});
-    const bool isSteady = sameWay(t[0], t[1]) && sameWay(t[0], t[2]) && sameWay(t[1], t[2]);
-    if (cuts == 0 || longest < (isSteady ? kLongestStraightSide : smallestSide)) {
-      pieces.push_back(isSteady ? t : ofOneRay(t));
-      return;
-    }
-    const Triangle m{between(t, 0), between(t, 1), between(t, 2)};
-    if (isSteady && !bends(t[0], t[1], m[0]) && !bends(t[1], t[2], m[1]) && !bends(t[2], t[0], m[2])) {
-      pieces.push_back(t);
-      return;
-    }
-    for (const Triangle& part : {Triangle{t[0], m[0], m[2]}, Triangle{m[0], t[1], m[1]},
-                                 Triangle{m[2], m[1], t[2]}, Triangle{m[0], m[1], m[2]}})
-      refine(part, cuts - 1, pieces);
   }
 
   // What is too small to be cut looks the way of its first corner that is not lost.
@@ -168,9 +157,7 @@ class Cutter {
   const View& view;
   const float smallestSide;  // pixels
   const float size;          // m
-  const bool isCurved;
-  mat3 positions{1}, normals{1};
-  vec3 geometricNormal{0};
+  const CasterTriangle& surface;
 };
 
 // What became of a block of triangles: the vertices of the mesh of those that are whole, and the pieces of
@@ -214,8 +201,12 @@ class Collector {
     for (const Block& part : parts) squarePixels += part.squarePixels;
     const float smallestSide = std::max(kSmallestSide, std::sqrt(squarePixels / kMostPieces));
     oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      for (const Triangle& t : parts[block].parting)
-        Cutter(source, query, view, smallestSide, size, mesh.isCurved, t).add(t, parts[block].pieces);
+      for (const Triangle& t : parts[block].parting) {
+        const CasterTriangle surface({t[0].position, t[1].position, t[2].position},
+                                     {t[0].normal, t[1].normal, t[2].normal}, mesh.isCurved);
+        const Cutter cutter(source, query, view, smallestSide, size, surface);
+        refineTriangle(cutter, t, kMostCuts, 0, parts[block].pieces);
+      }
     });
     SightMesh result;
     result.vertices.reserve(corners.size());
