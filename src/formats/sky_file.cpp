@@ -1,8 +1,8 @@
 #include "formats/sky_file.h"
 
+#include "core/color.h"
 #include "core/error.h"
 #include "core/image_io.h"
-#include "lights/light_intensity.h"
 
 namespace nephroid {
 

@@ -9,7 +9,6 @@ namespace nephroid {
 namespace {
 
 std::vector<EmitterRow> rowsOfArea(const Light& light, Emitter emitter) {
-  emitter.type = kEmitterPanel;
   emitter.power = light.intensity / float(light.grid.x * light.grid.y);
   std::vector<EmitterRow> rows;
   for (uint32_t y = 0; y < light.grid.y; ++y)
@@ -54,27 +53,30 @@ SpotCone coneOf(const Light& light) {
   return {scale, -cosOuter * scale};
 }
 
+Emitter lampOf(const Light& light, uint32_t index) {
+  Emitter lamp{};
+  lamp.light = index;
+  lamp.type = kEmitterPoint;
+  lamp.position = light.position;
+  lamp.direction = light.direction;
+  lamp.power = light.intensity;
+  if (light.type == LightType::directional) {
+    lamp.type = kEmitterDirectional;
+    lamp.power = light.illuminance;
+  } else if (light.type == LightType::spot) {
+    const SpotCone cone = coneOf(light);
+    lamp.type = kEmitterSpot;
+    lamp.coneScale = cone.scale;
+    lamp.coneOffset = cone.offset;
+  } else if (light.type == LightType::area) {
+    lamp.type = kEmitterPanel;
+  }
+  return lamp;
+}
+
 std::vector<EmitterRow> emitterRowsOf(const Light& light, uint32_t index) {
-  Emitter emitter{};
-  emitter.light = index;
-  emitter.type = kEmitterPoint;
-  emitter.position = light.position;
-  emitter.direction = light.direction;
-  emitter.power = light.intensity;
+  Emitter emitter = lampOf(light, index);
   switch (light.type) {
-    case LightType::directional:
-      emitter.type = kEmitterDirectional;
-      emitter.power = light.illuminance;
-      break;
-    case LightType::point:
-      break;
-    case LightType::spot: {
-      emitter.type = kEmitterSpot;
-      const SpotCone cone = coneOf(light);
-      emitter.coneScale = cone.scale;
-      emitter.coneOffset = cone.offset;
-      break;
-    }
     case LightType::line: {
       const vec3 step = (light.end - light.position) / float(light.samples);
       emitter.power = light.intensity / float(light.samples);
@@ -85,8 +87,9 @@ std::vector<EmitterRow> emitterRowsOf(const Light& light, uint32_t index) {
       return rowsOfArea(light, emitter);
     case LightType::sky:
       return rowsOfSky(light, emitter);
+    default:
+      return {{emitter}};
   }
-  return {{emitter}};
 }
 
 std::vector<EmitterRow> emitterRowsOf(const Scene& scene) {

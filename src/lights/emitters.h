@@ -22,6 +22,10 @@ inline vec3 middleOf(const Light& light) {
   return light.type == LightType::area ? light.position + 0.5f * (light.u + light.v) : light.position;
 }
 
+// A light as one emitter: all that it is but for a line's and an area's extent, for gobo and profile
+// (light_intensity.h), and for a sky, which is not one. `index`: of its scene.
+Emitter lampOf(const Light& light, uint32_t index = 0);
+
 // Emitters that differ in their place alone, one `step` (m) after another.
 struct EmitterRow {
   Emitter first{};

@@ -3,32 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lights/profile_lookup.h"
+
 namespace nephroid {
 namespace {
 
-// Where an angle lies between two neighbours.
-struct Bracket {
-  std::size_t low = 0;
-  float fraction = 0;  // of the way to the next
-};
-
 static_assert(uint32_t(PhotometryType::c) == kProfileTypeC && uint32_t(PhotometryType::b) == kProfileTypeB &&
               uint32_t(PhotometryType::a) == kProfileTypeA);
-
-vec2 rangeOf(const std::vector<float>& angles) {
-  return {angles.front(), angles.back()};
-}
-
-// `angle` within the angles, of which there are two or more.
-Bracket bracketOf(const std::vector<float>& angles, float angle) {
-  auto low = static_cast<std::size_t>(lowerAngle(rangeOf(angles), static_cast<int>(angles.size()), angle));
-  if (!(angles[low] <= angle && angle <= angles[low + 1])) {
-    const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, angle);
-    low = static_cast<std::size_t>(above - angles.begin()) - 1;
-  }
-  const float fraction = (angle - angles[low]) / (angles[low + 1] - angles[low]);
-  return {low, glm::clamp(fraction, 0.0f, 1.0f)};
-}
 
 // Integral of a function that is linear between the angles (degrees) times the sine of the angle from
 // `poleAt`.
@@ -72,30 +53,17 @@ vec3 goboTransmittance(const Texture& gobo, vec2 turn, vec3 local) {
 }  // namespace
 
 float profileFraction(const Profile& profile, vec3 local) {
-  const auto& verticals = profile.verticalAngles;
-  const auto& horizontals = profile.horizontalAngles;
-  const auto type = static_cast<uint32_t>(profile.type);
-  const ProfileRange range{rangeOf(verticals), rangeOf(horizontals)};
-  const vec2 angles = profileAngles(type, range, local);
-  if (!profileHolds(type, range, angles)) return 0;
-  const Bracket v = bracketOf(verticals, angles.x);
-  const std::size_t stride = verticals.size();
-  const float* values = profile.fractions.data() + v.low;
-  if (horizontals.size() == 1) return glm::mix(values[0], values[1], v.fraction);
-  const Bracket h = bracketOf(horizontals, angles.y);
-  values += h.low * stride;
-  return glm::mix(glm::mix(values[0], values[1], v.fraction),
-                  glm::mix(values[stride], values[stride + 1], v.fraction), h.fraction);
+  const ProfileView view{
+      static_cast<uint>(profile.type), ivec2(profile.verticalAngles.size(), profile.horizontalAngles.size()),
+      profile.verticalAngles.data(), profile.horizontalAngles.data(), profile.fractions.data()};
+  return profileFraction(view, local);
 }
 
 ShapedLight shapedLight(const Scene& scene, const Light& light) {
   ShapedLight shaped;
-  shaped.intensity = light.intensity;
-  shaped.isPanel = light.type == LightType::area;
-  if (light.type != LightType::spot && !shaped.isPanel) return shaped;
+  shaped.lamp = lampOf(light);
+  if (light.type != LightType::spot) return shaped;
   shaped.frame = lightFrame(light.direction);
-  if (shaped.isPanel) return shaped;
-  shaped.cone = coneOf(light);
   if (light.profile != kNone) shaped.profile = &scene.profiles[light.profile];
   if (light.goboTexture != kNone) {
     shaped.gobo = &scene.textures[light.goboTexture];
@@ -114,10 +82,9 @@ std::vector<ShapedLight> shapedLights(const Scene& scene) {
 }
 
 vec3 lightIntensity(const ShapedLight& light, vec3 direction) {
+  vec3 intensity = emitterPower(light.lamp, direction);
+  if (!light.isShaped() || intensity == vec3(0)) return intensity;
   const vec3 local = alongFrame(light.frame, direction);
-  const float falloff = light.isPanel ? local.z : coneFalloff(local.z, light.cone.scale, light.cone.offset);
-  if (!(falloff > 0)) return vec3(0);
-  vec3 intensity = light.intensity * falloff;
   if (light.profile) intensity *= profileFraction(*light.profile, local);
   if (light.gobo) intensity *= goboTransmittance(*light.gobo, light.goboTurn, local);
   return intensity;

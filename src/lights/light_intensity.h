@@ -7,17 +7,10 @@
 
 namespace nephroid {
 
-// How bright linear Rec. 709 is, in the unit that its channels are in.
-inline float luminanceOf(vec3 color) {
-  return dot(color, vec3(0.2126f, 0.7152f, 0.0722f));
-}
-
 // A light with what its intensity in every direction has in common: made once, asked often. The scene must
 // outlive it.
 struct ShapedLight {
-  vec3 intensity{0};     // cd, at the peak
-  bool isPanel = false;  // by Lambert's cosine law, in place of a cone
-  SpotCone cone;
+  Emitter lamp{};  // all of it in one place
   LightFrame frame{};
   const Profile* profile = nullptr;
   const Texture* gobo = nullptr;

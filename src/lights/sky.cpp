@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lights/light_intensity.h"
+#include "core/color.h"
 
 namespace nephroid {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/color.h"
 #include "geometry/bounds.h"
 #include "reference/sampling.h"
 

@@ -19,6 +19,21 @@ uniform sampler2D gobo;
 // horizontal angle.
 uniform sampler2D profile;
 
+struct ProfileView {
+  uint type;
+  ivec2 counts;
+};
+float verticalAngle(ProfileView view, int i) {
+  return texelFetch(profile, ivec2(i + 1, 0), 0).r;
+}
+float horizontalAngle(ProfileView view, int i) {
+  return texelFetch(profile, ivec2(0, i + 1), 0).r;
+}
+float profileValue(ProfileView view, ivec2 at) {
+  return texelFetch(profile, at + 1, 0).r;
+}
+#include "lights/profile_lookup.h"
+
 // One of the light's points.
 Emitter emitterAt(vec3 origin) {
   return Emitter(origin, kEmitterType, constants.direction, constants.coneScale, constants.power,
@@ -75,47 +90,12 @@ float litPart(vec3 offset, vec2 middle, uint firstMap) {
   return isPerspective && place.z <= 0 ? 1 : sum;
 }
 
-float verticalAngle(int i) {
-  return texelFetch(profile, ivec2(i + 1, 0), 0).r;
-}
-float horizontalAngle(int i) {
-  return texelFetch(profile, ivec2(0, i + 1), 0).r;
-}
-
-// As profileFraction in scene/light_intensity.cpp.
-float profileFraction(vec3 local) {
-  const ivec2 counts = textureSize(profile, 0) - 1;
-  const ProfileRange range = ProfileRange(vec2(verticalAngle(0), verticalAngle(counts.x - 1)),
-                                          vec2(horizontalAngle(0), horizontalAngle(counts.y - 1)));
-  const vec2 angles = profileAngles(kProfileType, range, local);
-  if (!profileHolds(kProfileType, range, angles)) return 0;
-  ivec2 low = ivec2(lowerAngle(range.vertical, counts.x, angles.x), 0);
-  while (low.x > 0 && angles.x < verticalAngle(low.x)) --low.x;
-  while (low.x + 2 < counts.x && angles.x > verticalAngle(low.x + 1)) ++low.x;
-  const vec2 verticals = vec2(verticalAngle(low.x), verticalAngle(low.x + 1));
-  vec2 part = vec2((angles.x - verticals.x) / (verticals.y - verticals.x), 0);
-  ivec2 next = ivec2(1, 0);
-  if (counts.y > 1) {
-    low.y = lowerAngle(range.horizontal, counts.y, angles.y);
-    while (low.y > 0 && angles.y < horizontalAngle(low.y)) --low.y;
-    while (low.y + 2 < counts.y && angles.y > horizontalAngle(low.y + 1)) ++low.y;
-    const vec2 horizontals = vec2(horizontalAngle(low.y), horizontalAngle(low.y + 1));
-    part.y = (angles.y - horizontals.x) / (horizontals.y - horizontals.x);
-    next.y = 1;
-  }
-  part = clamp(part, vec2(0), vec2(1));
-  const ivec2 at = low + 1;
-  return mix(
-      mix(texelFetch(profile, at, 0).r, texelFetch(profile, at + ivec2(1, 0), 0).r, part.x),
-      mix(texelFetch(profile, at + ivec2(0, next.y), 0).r, texelFetch(profile, at + next, 0).r, part.x),
-      part.y);
-}
-
 // What gobo and profile leave of the light that goes along `direction`, within the cone.
 vec3 shape(vec3 direction) {
   const vec3 local = alongFrame(lightFrame(constants.direction), direction);
   vec3 part = vec3(1);
-  if (kProfileType != kNoProfile) part *= profileFraction(local);
+  if (kProfileType != kNoProfile)
+    part *= profileFraction(ProfileView(kProfileType, textureSize(profile, 0) - 1), local);
   if (kHasGobo) {
     const vec2 fromMiddle = placeInGobo(constants.goboTurn, local);
     part *= textureLod(gobo, 0.5 + fromMiddle / vec2(textureSize(gobo, 0)), 0).rgb;
