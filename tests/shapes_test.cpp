@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/bounds.h"
 #include "geometry/mesh_checks.h"
 #include "geometry/shapes.h"
 #include "water/water.h"
@@ -166,6 +167,32 @@ TEST(Shapes, PlaneIsAQuadThatFacesUp) {
   EXPECT_GT(
       glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]).y, 0);
   EXPECT_NEAR(static_cast<double>(makePlane({2, 3}, {0, 1000}).positions.size()), 1000, 50);
+}
+
+TEST(Bounds, ABoxGrowsAroundWhatItHolds) {
+  Box box;
+  EXPECT_TRUE(box.isEmpty());
+  box.include(vec3(1, 2, 3));
+  EXPECT_FALSE(box.isEmpty());
+  box.include(Box{{-1, 2, 0}, {0, 6, 3}});
+  EXPECT_EQ(box.low, vec3(-1, 2, 0));
+  EXPECT_EQ(box.high, vec3(1, 6, 3));
+  EXPECT_EQ(box.center(), vec3(0, 4, 1.5f));
+  EXPECT_EQ(box.longestSide(), 4);
+  EXPECT_EQ(box.corner(5), vec3(1, 2, 3));
+  EXPECT_TRUE(box.holds({1, 6, 3}));
+  EXPECT_FALSE(box.holds({1, 6, 3.1f}));
+  EXPECT_TRUE(box.holdsInside({{0, 3, 1}, {0.5f, 5, 2}}));
+  EXPECT_FALSE(box.holdsInside(box));
+}
+
+TEST(Bounds, ATurnedBoxIsBoxedAnew) {
+  Placement placement{{10, 0, 0}, glm::angleAxis(glm::radians(90.0f), vec3(0, 0, 1)), 2};
+  const Mesh mesh = makeBox({1, 2, 3});
+  const Box placed = placedBox(boundingBox(mesh), placement);
+  EXPECT_LT(length(placed.low - vec3(8, -1, -3)), 1e-5f);
+  EXPECT_LT(length(placed.high - vec3(12, 1, 3)), 1e-5f);
+  EXPECT_NEAR(boundingSphere(mesh).radius, 0.5f * std::sqrt(14.0f), 1e-6);
 }
 
 TEST(Shapes, WaterFollowsItsFormulaAndItsNormalsTheGradient) {
