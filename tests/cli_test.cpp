@@ -108,8 +108,8 @@ translation = [0, 1, 0]
 
 TEST_F(SceneCommand, MeasureWritesWhatThePointLightSends) {
   const ProgramResult result =
-      runProgram({"measure", at("scene.toml"), "--sensor", "floor", "-o", at("floor.exr"), "--planes",
-                  "sensor", "--source", "traced", "--technique", "none", "--stats", at("stats.json")});
+      runProgram({"measure", at("scene.toml"), "--sensor", "floor", "-o", at("floor.exr"), "--source",
+                  "traced", "--technique", "none", "--stats", at("stats.json")});
   ASSERT_EQ(result.status, 0) << result.errors;
   EXPECT_EQ(result.errors, "");
   const Image image = readExr(folder / "floor.exr");
@@ -126,8 +126,8 @@ TEST_F(SceneCommand, MeasureWritesWhatThePointLightSends) {
 
 TEST_F(SceneCommand, TheSameCommandWritesTheSameBytes) {
   for (const char* name : {"a.exr", "b.exr"})
-    runProgram({"measure", at("scene.toml"), "--sensor", "floor", "-o", at(name), "--planes", "sensor",
-                "--source", "traced", "--technique", "none"});
+    runProgram({"measure", at("scene.toml"), "--sensor", "floor", "-o", at(name), "--source", "traced",
+                "--technique", "none"});
   EXPECT_EQ(readAll(folder / "a.exr"), readAll(folder / "b.exr"));
   EXPECT_GT(readAll(folder / "a.exr").size(), 0u);
 }
@@ -135,8 +135,8 @@ TEST_F(SceneCommand, TheSameCommandWritesTheSameBytes) {
 TEST_F(SceneCommand, WrongInputLeavesNothingBehind) {
   writeScene("broken.toml", "[camera\nposition = 1");
   const auto measure = [&](std::vector<std::string> changed) {
-    std::vector<std::string> arguments{"measure", at("scene.toml"), "-o",     at("floor.exr"), "--planes",
-                                       "sensor",  "--source",       "traced", "--technique",   "none"};
+    std::vector<std::string> arguments{"measure",  at("scene.toml"), "-o",          at("floor.exr"),
+                                       "--source", "traced",         "--technique", "none"};
     arguments.insert(arguments.end(), changed.begin(), changed.end());
     return arguments;
   };

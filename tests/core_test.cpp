@@ -137,15 +137,17 @@ TEST(Progress, SaysDurationsAsPeopleDo) {
 }
 
 TEST(Stats, AreTheDocumentedFields) {
-  const Stats stats{"llvmpipe \xff", "none", "traced", 12.5, 3, {{"shade", 2.5}}, {{"beams", 7}}, 1024};
+  const Stats stats{"llvmpipe \xff",  "none",         "traced", {{"planes", "4"}}, 12.5, 3,
+                    {{"shade", 2.5}}, {{"beams", 7}}, 1024};
   const auto json = nlohmann::json::parse(statsJson(stats));
   EXPECT_EQ(json["prepare_ms"], 12.5);
   EXPECT_EQ(json["frame_ms"], 3);
   EXPECT_EQ(json["passes"][0]["name"], "shade");
   EXPECT_EQ(json["passes"][0]["ms"], 2.5);
   EXPECT_EQ(json["counts"]["beams"], 7);
+  EXPECT_EQ(json["settings"]["planes"], "4");
   EXPECT_EQ(json["memory_bytes"], 1024);
-  EXPECT_EQ(json.size(), 8u);
+  EXPECT_EQ(json.size(), 9u);
 }
 
 TEST(Stats, MedianIsTheMiddle) {

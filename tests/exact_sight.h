@@ -8,7 +8,7 @@
 #include "core/image.h"
 #include "optics/refraction.h"
 #include "render/sight/view_rays.h"
-#include "techniques/sources.h"
+#include "transport/scene_transport.h"
 
 namespace nephroid {
 

@@ -41,8 +41,8 @@ class Frames : public GpuTest {
   struct Drawing {
     Drawing(gpu::Device& on, const Scene& scene, const std::string& name, bool keepsLight) {
       settings.technique = name;
-      settings.source = Source::traced;
-      transport.emplace(scene, settings, progress);
+      settings.transport.source = Source::traced;
+      transport.emplace(scene, transportOf(settings), progress);
       technique = makeTechnique({on, settings, *transport, stats});
       renderer.emplace(on, *transport,
                        RenderSettings{.size = kSize, .shadowMapSize = 256, .keepsLight = keepsLight},

@@ -8,6 +8,7 @@
 #include "gpu/transfer.h"
 #include "gpu_fixture.h"
 #include "shaders/techniques/planes/deposit_comp.h"
+#include "techniques/planes/settings.h"
 #include "techniques/planes/shader_data.h"
 #include "techniques/registry.h"
 #include "test_meshes.h"
@@ -232,11 +233,11 @@ TEST_F(IlluminationTexturesGpuTest, DependNeitherOnTheCameraNorOnThePartAskedFor
   Scene scene = glassBoxAboveFloor();
   GpuScene gpuScene(device(), scene);
   TechniqueSettings settings;
-  settings.source = Source::traced;
-  settings.textureSize = 128;
+  settings.transport.source = Source::traced;
+  settings.own.of<PlaneSettings>().textureSize = 128;
   Progress progress;
   Stats stats;
-  SceneTransport transport(scene, settings, progress);
+  SceneTransport transport(scene, transportOf(settings), progress);
   const std::unique_ptr<Technique> technique = makeTechnique({device(), settings, transport, stats});
   const auto image = [&](const char* name) {
     return gpu::createImage(device(), name, {.width = kSize, .height = kSize});

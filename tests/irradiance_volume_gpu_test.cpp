@@ -1,4 +1,5 @@
-#include "techniques/irradiance_volume/irradiance_volume.h"
+#include "techniques/irradiance_volume/scene_volumes.h"
+#include "techniques/registry.h"
 
 #include "geometry/shapes.h"
 #include "gpu/command_list.h"
@@ -38,9 +39,10 @@ Scene sceneWith(Mesh mesh, MaterialType type) {
 TechniqueSettings quickSettings() {
   TechniqueSettings settings;
   settings.technique = "irradiance-volume";
-  settings.volumeKilobytes = 40;
-  settings.volumePhotons = 10;
-  settings.lightLevel = 1;
+  auto& own = settings.own.of<IrradianceVolumeSettings>();
+  own.kilobytes = 40;
+  own.photons = 10;
+  own.lightLevel = 1;
   return settings;
 }
 
@@ -91,7 +93,8 @@ std::vector<vec3> expectedLux(SceneVolumes& volumes, const Scene& scene, const T
       lux[i] += power * length(image) *
                 volume.illuminance(placement.inversePoint(centre + scale * x),
                                    placement.inverseDirection(normalize(image)),
-                                   placement.inverseDirection(direction), settings.lightInterpolation);
+                                   placement.inverseDirection(direction),
+                                   settings.own.of<IrradianceVolumeSettings>().lightInterpolation);
     }
   };
   add(scene.lights[0].direction, scene.lights[0].illuminance, vec3(0));
@@ -113,12 +116,12 @@ TEST_F(IrradianceVolumeGpuTest, ShowsWhatTheProcessorLooksUp) {
                                       Representation::multiResolution, Representation::harmonics})
       for (const auto interpolation : {LightInterpolation::nearest, LightInterpolation::flow}) {
         TechniqueSettings settings = quickSettings();
-        settings.representation = representation;
-        settings.lightInterpolation = interpolation;
+        settings.own.of<IrradianceVolumeSettings>().representation = representation;
+        settings.own.of<IrradianceVolumeSettings>().lightInterpolation = interpolation;
         Progress progress;
         Stats stats;
         GpuScene gpuScene(device(), scene);
-        SceneTransport transport(scene, settings, progress);
+        SceneTransport transport(scene, transportOf(settings), progress);
         const auto technique = makeTechnique({device(), settings, transport, stats});
         SceneVolumes volumes = sceneVolumes(scene, settings);
         const std::vector<vec4> lux = shaded(*technique, gpuScene, normal);
@@ -144,7 +147,7 @@ TEST_F(IrradianceVolumeGpuTest, MovesWithTheCasterWithoutBeingMadeAgain) {
   Progress progress;
   Stats stats;
   GpuScene gpuScene(device(), scene);
-  SceneTransport transport(scene, settings, progress);
+  SceneTransport transport(scene, transportOf(settings), progress);
   const auto technique = makeTechnique({device(), settings, transport, stats});
   const std::vector<vec4> before = shaded(*technique, gpuScene, vec3(0, 1, 0));
   const auto made = stats.counts;

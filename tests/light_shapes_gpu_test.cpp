@@ -78,7 +78,7 @@ class LightShapes : public GpuTest {
     Progress progress;
     TechniqueSettings settings;
     settings.technique = "none";
-    SceneTransport transport(scene, settings, progress);
+    SceneTransport transport(scene, transportOf(settings), progress);
     const auto technique = makeTechnique({device(), settings, transport, stats});
     Renderer renderer(device(), transport, {.size = kSize}, *technique);
     std::vector<Sample> samples;
@@ -218,14 +218,15 @@ TEST_F(LightShapes, ACausticOfAGoboHasTheFluxOfItsBeams) {
   scene.textures.push_back(randomGobo(40, 40));
   scene.sensors.push_back({"floor", {-0.6f, 0, -0.7f}, {1.4f, 0, 0}, {0, 0, 1.4f}, uvec2(64)});
   TechniqueSettings settings;
-  settings.source = Source::traced;
+  settings.transport.source = Source::traced;
   Progress progress;
   Stats stats;
   TechniqueMeter meter(device(), scene, scene.sensors[0], settings, progress, stats);
   const SensorLayer byTechnique = meter.read();
   const RayScene rays(scene);
-  const SensorLayer byBeams = measureBeams(scene, rays, TracedSource(scene, rays), scene.sensors[0],
-                                           settings.paths, settings.refineDepth, progress, stats);
+  const SensorLayer byBeams =
+      measureBeams(scene, rays, TracedSource(scene, rays), scene.sensors[0], settings.transport.paths,
+                   settings.beams.refineDepth, progress, stats);
   glm::dvec3 technique(0), beams(0);
   for (const vec3 lux : byTechnique) technique += glm::dvec3(lux);
   for (const vec3 lux : byBeams) beams += glm::dvec3(lux);

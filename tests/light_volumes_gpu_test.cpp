@@ -6,6 +6,7 @@
 #include "gpu_fixture.h"
 #include "optics/refraction.h"
 #include "render/technique_meter.h"
+#include "techniques/light_volumes/settings.h"
 #include "water/water.h"
 
 namespace nephroid {
@@ -40,11 +41,11 @@ class LightVolumesGpuTest : public GpuTest {
                               Culling culling = Culling::hierarchical) {
     TechniqueSettings settings;
     settings.technique = "light-volumes";
-    settings.source = Source::traced;
-    settings.culling = culling;
-    settings.paths = paths;
-    settings.shadowTolerance = shadowTolerance;
-    settings.contributionError = contributionError;
+    settings.transport.source = Source::traced;
+    settings.own.of<LightVolumeSettings>().culling = culling;
+    settings.transport.paths = paths;
+    settings.beams.shadowTolerance = shadowTolerance;
+    settings.own.of<LightVolumeSettings>().contributionError = contributionError;
     Progress progress;
     Stats stats;
     std::vector<double> lux;
@@ -53,7 +54,7 @@ class LightVolumesGpuTest : public GpuTest {
     return lux;
   }
 
-  float shadowTolerance = TechniqueSettings{}.shadowTolerance;
+  float shadowTolerance = BeamDivision{}.shadowTolerance;
   float contributionError = 0;
   Paths paths = Paths::transmission;
 };

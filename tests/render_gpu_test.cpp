@@ -41,7 +41,7 @@ class Frame : public GpuTest {
     Progress progress;
     TechniqueSettings settings;
     settings.technique = "none";
-    SceneTransport transport(scene, settings, progress);
+    SceneTransport transport(scene, transportOf(settings), progress);
     const auto technique = makeTechnique({device(), settings, transport, stats});
     Renderer renderer(device(), transport, {.size = kSize, .shadowMapSize = 1024}, *technique);
     renderer.render(scene);

@@ -40,10 +40,10 @@ class ScatteringGpuTest : public GpuTest {
                 const char* name = "light-volumes") {
     TechniqueSettings settings;
     settings.technique = name;
-    settings.source = Source::traced;
+    settings.transport.source = Source::traced;
     Progress progress;
     Stats stats;
-    SceneTransport transport(scene, settings, progress);
+    SceneTransport transport(scene, transportOf(settings), progress);
     const auto technique = makeTechnique({device(), settings, transport, stats});
     constexpr uvec2 kSize(32, 32);
     Renderer renderer(device(), transport, {.size = kSize}, *technique);

@@ -10,7 +10,7 @@
 #include "geometry/shapes.h"
 #include "lights/sky.h"
 #include "report/diagnose.h"
-#include "techniques/sources.h"
+#include "transport/scene_transport.h"
 
 namespace nephroid {
 namespace {
@@ -238,7 +238,7 @@ TEST(SceneChecks, StandAtTheDoors) {
       mistake.make(scene);
       expectSays(errorOf([&] { RayScene{scene}; }), mistake.says);
       expectSays(errorOf([&] { diagnose(scene); }), mistake.says);
-      expectSays(errorOf([&] { SceneTransport(scene, settings, progress); }), mistake.says);
+      expectSays(errorOf([&] { SceneTransport(scene, transportOf(settings), progress); }), mistake.says);
     }
   Mesh bare = makeSphere(0.5f, {.vertices = 100});
   bare.isFinished = false;
@@ -247,7 +247,7 @@ TEST(SceneChecks, StandAtTheDoors) {
   EXPECT_NO_THROW(RayScene{bare});
 
   const Scene right = fullScene();
-  SceneTransport transport(right, settings, progress);
+  SceneTransport transport(right, transportOf(settings), progress);
   for (const Mistake& mistake : kMoving) {
     Scene scene = right;
     mistake.make(scene);

@@ -24,7 +24,7 @@ class ShaftsOfLight : public GpuTest {
     Progress progress;
     TechniqueSettings settings;
     settings.technique = "none";
-    SceneTransport transport(frames.front(), settings, progress);
+    SceneTransport transport(frames.front(), transportOf(settings), progress);
     const auto technique = makeTechnique({device(), settings, transport, stats});
     Renderer renderer(device(), transport, {.size = size, .shadowMapSize = 1024, .shafts = shafts},
                       *technique);

@@ -65,10 +65,10 @@ class SightGpuTest : public GpuTest {
  protected:
   std::vector<vec3> drawn(const Scene& scene, Source source, uvec2 size = kSize) {
     settings.technique = "none";
-    settings.source = source;
+    settings.transport.source = source;
     Progress progress;
     Stats stats;
-    SceneTransport transport(scene, settings, progress);
+    SceneTransport transport(scene, transportOf(settings), progress);
     const auto technique = makeTechnique({device(), settings, transport, stats});
     Renderer renderer(device(), transport, {.size = size}, *technique);
     renderer.render(scene);
@@ -143,7 +143,7 @@ TEST_F(SightGpuTest, ACausticThroughAPaneIsAsBrightAsThePaneLetsThrough) {
     settings.technique = "illumination-textures";
     Progress progress;
     Stats stats;
-    SceneTransport transport(scene, settings, progress);
+    SceneTransport transport(scene, transportOf(settings), progress);
     const auto technique = makeTechnique({device(), settings, transport, stats});
     Renderer renderer(device(), transport, {.size = kSize}, *technique);
     renderer.render(scene);
@@ -200,7 +200,7 @@ TEST_F(SightGpuTest, NothingPopsAsTheCameraGoesAround) {
   settings.technique = "none";
   Progress progress;
   Stats stats;
-  SceneTransport transport(scene, settings, progress);
+  SceneTransport transport(scene, transportOf(settings), progress);
   const auto technique = makeTechnique({device(), settings, transport, stats});
   Renderer renderer(device(), transport, {.size = kSmall}, *technique);
   const auto step = [](const std::vector<vec3>& a, const std::vector<vec3>& b) {

@@ -10,10 +10,10 @@
 
 #include "ball_over_floor.h"
 #include "beams/build.h"
+#include "beams/plane_plan.h"
 #include "lights/emitters.h"
 #include "quantised_source.h"
 #include "render/measure.h"
-#include "techniques/planes/plan.h"
 #include "transport/queries.h"
 #include "transport/table/entry.h"
 #include "transport/table/table_source.h"

@@ -17,8 +17,8 @@ class TechniqueAgreement : public GpuTest {
                          Source source, double modelError = kModelError) {
     TechniqueSettings settings;
     settings.technique = technique;
-    settings.source = source;
-    settings.paths = Paths::transmission;
+    settings.transport.source = source;
+    settings.transport.paths = Paths::transmission;
     Progress progress;
     Stats stats;
     const SensorLayer drawn = TechniqueMeter(device(), scene, sensor, settings, progress, stats).read();

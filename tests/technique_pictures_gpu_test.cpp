@@ -30,10 +30,10 @@ class TechniquePicturesGpuTest : public GpuTest {
   Drawn draw(const Scene& scene, const char* technique, SceneTransport::SourceMaker maker = {}) {
     TechniqueSettings settings;
     settings.technique = technique;
-    settings.source = Source::traced;
+    settings.transport.source = Source::traced;
     Progress progress;
     Stats stats;
-    SceneTransport transport(scene, settings, progress, std::move(maker));
+    SceneTransport transport(scene, transportOf(settings), progress, std::move(maker));
     const auto drawing = makeTechnique({device(), settings, transport, stats});
     Renderer renderer(device(), transport, {.size = kSize}, *drawing);
     renderer.render(scene);
@@ -43,7 +43,7 @@ class TechniquePicturesGpuTest : public GpuTest {
 
   std::vector<float> measure(const Scene& scene, const Sensor& sensor) {
     TechniqueSettings settings;
-    settings.directions = 33;
+    settings.transport.directions = 33;
     Progress progress;
     Stats stats;
     std::vector<float> lux;
@@ -131,7 +131,7 @@ TEST_F(TechniquePicturesGpuTest, LightGoesAllWays) {
   const auto flux = [&](const char* technique) {
     TechniqueSettings settings;
     settings.technique = technique;
-    settings.source = Source::traced;
+    settings.transport.source = Source::traced;
     Progress progress;
     Stats stats;
     double sum = 0;

@@ -37,7 +37,7 @@ TEST_P(TechniqueTruthGpuTest, IsMet) {
   const Image answer = readPfm(answerFile);
   TechniqueSettings settings;
   settings.technique = wanted.technique;
-  settings.source = wanted.source;
+  settings.transport.source = wanted.source;
   Progress progress;
   Stats stats;
   TechniqueMeter meter(device(), scene, scene.sensors.at(0), settings, progress, stats);

@@ -150,7 +150,7 @@ TEST_F(ViewSteps, GoesOnWhereItWasWhenItIsNoLongerMinimised) {
 }
 
 TEST_F(ViewSteps, RecordsWhatIsSeenAsAVideo) {
-  state().settings.technique = "none";
+  state().settings.technique.technique = "none";
   ASSERT_TRUE(opens(written("ball.toml", kBall)));
   hands().key(GLFW_KEY_V);
   if (!isInstalled("ffmpeg")) {

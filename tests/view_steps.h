@@ -11,6 +11,7 @@
 #include "hidden_display.h"
 #include "panels.h"
 #include "run_program.h"
+#include "techniques/planes/settings.h"
 #include "viewer/picking.h"
 #include "viewer_loop.h"
 
@@ -148,8 +149,8 @@ class ViewSteps : public HiddenDisplayTest {
     before_ = fs::current_path();
     fs::current_path(folder_.path());
     options_.size = kSize;
-    options_.technique.source = Source::traced;
-    options_.technique.textureSize = 64;
+    options_.settings.technique.transport.source = Source::traced;
+    options_.settings.technique.own.of<PlaneSettings>().textureSize = 64;
     viewer_ = std::make_unique<Viewer>(options_);
     viewer_->state().areTimesShown = false;  // they would lie over so small a picture
   }

@@ -39,7 +39,7 @@ TEST_F(ViewSteps, AClickOnWaterDropsAStoneThatIsSavedWithTheScene) {
 
 TEST_F(ViewSteps, EachDragOfTheCameraIsTakenBackByItself) {
   const fs::path file = written("ball.toml", kBall);
-  state().settings.technique = "none";
+  state().settings.technique.technique = "none";
   ASSERT_TRUE(opens(file));
   const Camera first = state().scene.camera;
   hands().drag({70, 60}, {50, 55});
@@ -115,7 +115,7 @@ TEST_F(ViewSteps, OpensEachSceneAndItsPictureFollowsTheLight) {
 }
 
 TEST_F(ViewSteps, WhatIsDroppedIsOpenedOrAddedOrTheWindowSaysWhyNot) {
-  state().settings.technique = "none";
+  state().settings.technique.technique = "none";
   ASSERT_TRUE(opens(written("ball.toml", kBall)));
   hands().drop(written("picture.jpg", ""));
   stepNow(viewer());

@@ -213,7 +213,7 @@ TEST(Histories, GoBackAndForth) {
 TEST(SceneStates, TellWhatHasToBePreparedAnew) {
   Scene scene = ballScene();
   TechniqueSettings table, traced, volumes;
-  traced.source = Source::traced;
+  traced.transport.source = Source::traced;
   volumes.technique = "irradiance-volume";
   const SceneState before = stateOf(scene);
   scene.lights[0].position.x = 9;
@@ -233,8 +233,8 @@ void waitFor(const Preparation& preparation) {
 }
 
 TEST(Preparations, GiveWhatDrawingNeeds) {
-  TechniqueSettings settings;
-  settings.source = Source::traced;
+  PictureSettings settings;
+  settings.technique.transport.source = Source::traced;
   Preparation preparation(ballScene, settings);
   waitFor(preparation);
   const std::unique_ptr<Prepared> made = preparation.take();
@@ -309,9 +309,9 @@ TEST(Histories, TakeTheCameraBack) {
 TEST(SceneLines, BeamsLeaveTheBallAndSomeLightIsLost) {
   const Scene scene = ballScene();
   TechniqueSettings settings;
-  settings.source = Source::traced;
+  settings.transport.source = Source::traced;
   Progress progress;
-  SceneTransport transport(scene, settings, progress);
+  SceneTransport transport(scene, transportOf(settings), progress);
   const std::vector<SceneLine> beams = beamLines(transport, Paths::transmission, 100);
   ASSERT_FALSE(beams.empty());
   EXPECT_LE(beams.size(), 300u);

@@ -8,7 +8,7 @@
 #include "formats/load.h"
 #include "geometry/shapes.h"
 #include "scratch_files.h"
-#include "techniques/sources.h"
+#include "transport/scene_transport.h"
 #include "water/ocean.h"
 #include "water/water.h"
 #include "water/wave_simulation.h"
@@ -315,9 +315,8 @@ TEST(MovingWater, IsWhereItIsInTheTransport) {
   scene.meshes = {makeWater(water, 0)};
   scene.objects.resize(1);
   scene.objects[0].water = water;
-  const TechniqueSettings settings;
   Progress progress;
-  SceneTransport transport(scene, settings, progress);
+  SceneTransport transport(scene, TransportSettings{}, progress);
   for (const double time : {0.0, 0.7, 1.1}) {
     scene.meshes[0] = makeWater(water, time);
     transport.place(scene);

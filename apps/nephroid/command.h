@@ -12,7 +12,7 @@
 #include "core/image_io.h"
 #include "core/stats.h"
 #include "core/stopwatch.h"
-#include "techniques/settings.h"
+#include "render/settings.h"
 
 namespace nephroid {
 
@@ -29,6 +29,7 @@ Command addBake(CLI::App& program);
 Command addCompare(CLI::App& program);
 Command addBench(CLI::App& program);
 Command addInfo(CLI::App& program);
+Command addHelp(CLI::App& program);
 Command addView(CLI::App& program);
 
 // What most commands share.
@@ -50,12 +51,15 @@ void addDevice(CLI::App& command, std::string& device);
 void addQuiet(CLI::App& command, bool& isQuiet);
 void addRepeat(CLI::App& command, uint32_t& repeat);
 void addStats(CLI::App& command, std::filesystem::path& stats);
-void addChoice(CLI::App& command, const ChoiceField& field, TechniqueSettings& settings);
-// `isSensorKnown`: a plane may be put where the sensor is.
-void addField(CLI::App& command, const SettingField& field, TechniqueSettings& settings, bool isSensorKnown);
-// Which technique, and all that may be said of how it works; and the latter alone.
-void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown);
-void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown);
+// `takesWord`: the setting's word for zero is taken too. `owner` outlives the command line.
+void addSetting(CLI::App& command, const Setting& setting, void* owner, const std::string& group,
+                bool takesWord = false);
+void addSettings(CLI::App& command, std::span<const SettingsView> views, bool takesWord = false);
+// Which technique, and the settings of every owner that a picture, or a sensor, depends on.
+void addTechnique(CLI::App& command, PictureSettings& settings);
+void addTechniqueOfSensor(CLI::App& command, PictureSettings& settings);
+// The settings alone.
+void addPictureSettings(CLI::App& command, PictureSettings& settings);
 
 // Throws, before any work is done, where `file` cannot be written, ends in none of `extensions` (none given:
 // any will do) or is the scene itself.
@@ -68,8 +72,9 @@ std::function<std::string(const std::string&)> oneOf(std::vector<std::string> na
 // "A<separator>B", both whole numbers; empty where it is not that.
 std::optional<uvec2> pairOf(const std::string& text, char separator);
 
-// The technique that is the truth for the others, and runs without them.
+// The truth for the techniques, which runs without them and is chosen by --technique as they are.
 inline constexpr const char* kReferenceName = "reference";
+bool isReference(const PictureSettings& settings);
 
 // The names of all techniques.
 std::vector<std::string> techniqueList();
@@ -82,7 +87,7 @@ const std::string& commandLine();
 
 // What an EXR says of how it was made. Neither a time nor a place, so that the same command writes the same
 // bytes.
-std::vector<ImageAttribute> imageAttributes(const TechniqueSettings& settings, const std::string& unit);
+std::vector<ImageAttribute> imageAttributes(const PictureSettings& settings, const std::string& unit);
 
 void writeStats(const std::filesystem::path& file, const Stats& stats);
 

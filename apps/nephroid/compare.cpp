@@ -8,6 +8,7 @@
 #include "reference/image.h"
 #include "reference/sensor.h"
 #include "refining.h"
+#include "render/omissions.h"
 #include "render/technique_meter.h"
 #include "report/report_folder.h"
 #include "report/seen_directly.h"
@@ -18,13 +19,13 @@ namespace {
 
 struct CompareOptions : CommonOptions {
   std::vector<std::string> techniques;
-  TechniqueSettings technique;
+  PictureSettings picture;
   uvec2 size{640, 480};  // pixels
   ReferenceOptions reference;
 };
 
 // Everything that what is compared is made from.
-struct Setting {
+struct CompareJob {
   const CompareOptions& options;
   const Scene& scene;
   const RayScene& rays;
@@ -32,78 +33,76 @@ struct Setting {
   Progress& progress;
 };
 
-TechniqueSettings settingsOf(const CompareOptions& options, const std::string& technique) {
-  TechniqueSettings settings = options.technique;
-  settings.technique = technique;
+PictureSettings settingsOf(const CompareOptions& options, const std::string& technique) {
+  PictureSettings settings = options.picture;
+  settings.technique.technique = technique;
   return settings;
 }
 
-Stats statsOf(const TechniqueSettings& settings, const gpu::Device& device) {
+Stats statsOf(const PictureSettings& settings, const gpu::Device& device) {
   Stats stats;
   stats.device = device.info().name;
-  stats.technique = settings.technique;
-  stats.source = nameOf(settings.source);
+  describeSettings(settings, stats);
   return stats;
 }
 
-TechniqueResult drawTechnique(const Setting& setting, const std::string& technique) {
-  const TechniqueSettings settings = settingsOf(setting.options, technique);
-  TechniqueResult result{{}, statsOf(settings, setting.device), imageAttributes(settings, "nit")};
-  const FrameRequest request{setting.options.scene, setting.options.time,   settings,
-                             setting.options.size,  setting.options.repeat, technique};
-  addMedianFrame(drawFrame(request, setting.device, setting.progress, result.stats,
+TechniqueResult drawTechnique(const CompareJob& job, const std::string& technique) {
+  const PictureSettings settings = settingsOf(job.options, technique);
+  TechniqueResult result{{}, statsOf(settings, job.device), imageAttributes(settings, "nit")};
+  const FrameRequest request{job.options.scene, job.options.time,   settings,
+                             job.options.size,  job.options.repeat, technique};
+  addMedianFrame(drawFrame(request, job.device, job.progress, result.stats,
                            [&](Renderer& renderer) { result.image = renderer.layers(); }),
                  result.stats);
   return result;
 }
 
-TechniqueResult readTechnique(const Setting& setting, const std::string& technique, const Sensor& sensor,
+TechniqueResult readTechnique(const CompareJob& job, const std::string& technique, const Sensor& sensor,
                               const SensorLayer& direct) {
-  const TechniqueSettings settings = settingsOf(setting.options, technique);
-  TechniqueResult result{{}, statsOf(settings, setting.device), imageAttributes(settings, "lux")};
+  const PictureSettings settings = settingsOf(job.options, technique);
+  TechniqueResult result{{}, statsOf(settings, job.device), imageAttributes(settings, "lux")};
   const Stopwatch preparing;
-  TechniqueMeter meter(setting.device, setting.scene, sensor, settings, setting.progress, result.stats);
+  TechniqueMeter meter(job.device, job.scene, sensor, settings.technique, job.progress, result.stats);
   result.stats.prepareMilliseconds = preparing.milliseconds();
-  const SensorLayer caustics =
-      readRepeatedly([&] { return meter.read(); }, setting.options.repeat, result.stats);
-  result.stats.memoryBytes = setting.device.memoryBytes();
-  result.image = sensorImage(setting.scene, sensor, direct, caustics);
+  const SensorLayer caustics = readRepeatedly([&] { return meter.read(); }, job.options.repeat, result.stats);
+  result.stats.memoryBytes = job.device.memoryBytes();
+  result.image = sensorImage(job.scene, sensor, direct, caustics);
   return result;
 }
 
-ReferenceResult refineReference(const Setting& setting, Estimate& estimate, const ReferenceSettings& settings,
+ReferenceResult refineReference(const CompareJob& job, Estimate& estimate, const ReferenceSettings& settings,
                                 const std::string& sensor) {
-  const CompareOptions& options = setting.options;
+  const CompareOptions& options = job.options;
   const Stopwatch watch;
-  if (!refine(estimate, stopRuleOf(options.reference), setting.progress)) throw Interrupted();
-  const ReferenceJob job{options, options.reference, settings, setting.scene, sensor.empty() ? "nit" : "lux",
-                         sensor};
+  if (!refine(estimate, stopRuleOf(options.reference.choices), job.progress)) throw Interrupted();
+  const ReferenceJob written{options, options.reference, settings, job.scene, sensor.empty() ? "nit" : "lux",
+                             sensor};
   return {estimate.image(), estimate.passes(), estimate.noise(), watch.milliseconds() / 1000,
-          referenceAttributes(estimate, job)};
+          referenceAttributes(estimate, written)};
 }
 
-SideBySide compareView(const Setting& setting) {
+SideBySide compareView(const CompareJob& job) {
   SideBySide view;
-  for (const std::string& technique : setting.options.techniques)
-    view.techniques.push_back(drawTechnique(setting, technique));
-  view.seesReceiver = seesReceiver(setting.scene, setting.rays, setting.options.size);
+  for (const std::string& technique : job.options.techniques)
+    view.techniques.push_back(drawTechnique(job, technique));
+  view.seesReceiver = seesReceiver(job.scene, job.rays, job.options.size);
   const ReferenceSettings settings =
-      referenceSettings(setting.options.reference, setting.options.technique, setting.options.size);
-  ReferenceImage reference(setting.scene, setting.rays, settings);
-  view.reference = refineReference(setting, reference, settings, "");
+      referenceSettings(job.options.reference, job.options.picture, job.options.size);
+  ReferenceImage reference(job.scene, job.rays, settings);
+  view.reference = refineReference(job, reference, settings, "");
   return view;
 }
 
-SideBySide compareSensor(const Setting& setting, const Sensor& sensor) {
+SideBySide compareSensor(const CompareJob& job, const Sensor& sensor) {
   SideBySide side;
   side.sensor = sensor.name;
-  const SensorLayer direct = measureDirect(setting.scene, setting.rays, sensor, setting.progress);
-  for (const std::string& technique : setting.options.techniques)
-    side.techniques.push_back(readTechnique(setting, technique, sensor, direct));
+  const SensorLayer direct = measureDirect(job.scene, job.rays, sensor, job.progress);
+  for (const std::string& technique : job.options.techniques)
+    side.techniques.push_back(readTechnique(job, technique, sensor, direct));
   const ReferenceSettings settings =
-      referenceSettings(setting.options.reference, setting.options.technique, sensor.resolution);
-  ReferenceSensor reference(setting.scene, setting.rays, sensor, settings);
-  side.reference = refineReference(setting, reference, settings, sensor.name);
+      referenceSettings(job.options.reference, job.options.picture, sensor.resolution);
+  ReferenceSensor reference(job.scene, job.rays, sensor, settings);
+  side.reference = refineReference(job, reference, settings, sensor.name);
   return side;
 }
 
@@ -114,9 +113,9 @@ std::vector<LeftOut> leftOutOf(const CompareOptions& options, const Scene& scene
       all.push_back({technique, omission.what, omission.concerns(scene)});
   };
   add("", omissionsOfFrame());
-  for (const TechniqueEntry& entry : techniques())
-    if (std::count(options.techniques.begin(), options.techniques.end(), entry.name) > 0)
-      add(entry.name, entry.omissions());
+  for (const TechniqueInfo* info : techniques())
+    if (std::count(options.techniques.begin(), options.techniques.end(), info->name) > 0)
+      add(info->name, info->omissions);
   return all;
 }
 
@@ -126,7 +125,7 @@ void runCompare(const CompareOptions& options) {
   const Scene scene = loadScene(options.scene, options.time);
   gpu::Device device({.device = options.device});
   const RayScene rays(scene);
-  const Setting setting{options, scene, rays, device, progress};
+  const CompareJob job{options, scene, rays, device, progress};
 
   Comparison comparison;
   comparison.program = "nephroid " NEPHROID_VERSION;
@@ -135,22 +134,22 @@ void runCompare(const CompareOptions& options) {
   comparison.device = device.info().name;
   comparison.time = options.time;
   comparison.exposure = scene.camera.exposure;
-  const ReferenceSettings reference = referenceSettings(options.reference, options.technique, options.size);
+  const ReferenceSettings reference = referenceSettings(options.reference, options.picture, options.size);
   comparison.paths = nameOf(reference.paths);
-  comparison.techniquePaths = nameOf(options.technique.paths);
+  comparison.techniquePaths = nameOf(options.picture.technique.transport.paths);
   comparison.spectrum = reference.spectrum == Spectrum::channels ? "channels" : "continuous";
   comparison.photons = reference.photons;
   comparison.leftOut = leftOutOf(options, scene);
-  comparison.view = compareView(setting);
-  for (const Sensor& sensor : scene.sensors) comparison.sensors.push_back(compareSensor(setting, sensor));
+  comparison.view = compareView(job);
+  for (const Sensor& sensor : scene.sensors) comparison.sensors.push_back(compareSensor(job, sensor));
   writeReport(options.output, comparison);
 }
 
-// All but the choice among them.
+// All but those that choose among others.
 std::vector<std::string> comparedTechniques() {
   std::vector<std::string> names;
-  for (const TechniqueEntry& entry : techniques())
-    if (entry.name != std::string_view(kAutomaticName)) names.emplace_back(entry.name);
+  for (const TechniqueInfo* info : techniques())
+    if (info->parts.empty()) names.emplace_back(info->name);
   return names;
 }
 
@@ -192,7 +191,7 @@ Command addCompare(CLI::App& program) {
   addSize(*command, options->size);
   addTime(*command, options->time);
   addTechniques(*command, options->techniques);
-  addTechniqueSettings(*command, options->technique, false);
+  addPictureSettings(*command, options->picture);
   addReference(*command, options->reference);
   addDevice(*command, options->device);
   addRepeat(*command, options->repeat);

@@ -12,9 +12,9 @@ std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& devic
                                  Stats& stats, const std::function<void(Renderer&)>& use) {
   const Stopwatch preparing;
   const Scene scene = loadScene(request.scene, request.time, request.waves);
-  SceneTransport transport(scene, request.technique, progress);
-  const auto technique = makeTechnique({device, request.technique, transport, stats});
-  Renderer renderer(device, transport, renderSettings(request.technique, request.size), *technique);
+  SceneTransport transport(scene, transportOf(request.settings.technique), progress);
+  const auto technique = makeTechnique({device, request.settings.technique, transport, stats});
+  Renderer renderer(device, transport, renderSettings(request.settings, request.size), *technique);
   stats.prepareMilliseconds += preparing.milliseconds();
 
   std::vector<FrameTime> times(request.repeat);

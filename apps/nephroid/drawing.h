@@ -8,7 +8,6 @@
 
 #include "render/frame.h"
 #include "render/measure.h"
-#include "techniques/settings.h"
 #include "water/wave_simulation.h"
 
 namespace nephroid {
@@ -16,7 +15,7 @@ namespace nephroid {
 struct FrameRequest {
   const std::filesystem::path& scene;
   double time = 0;  // s
-  const TechniqueSettings& technique;
+  const PictureSettings& settings;
   uvec2 size{640, 480};  // pixels
   uint32_t repeat = 1;
   std::string name;           // of the step, for the progress bar

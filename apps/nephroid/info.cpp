@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "formats/load.h"
 #include "gpu/device.h"
+#include "render/omissions.h"
 #include "report/diagnose.h"
 #include "techniques/registry.h"
 #include "transport/table/table_file.h"
@@ -35,7 +36,7 @@ void printOmissions(const std::string& heading, std::span<const Omission> omissi
 void printAllOmissions() {
   std::cout << "\nLeft out, compared with the reference\n";
   printOmissions("by every technique", omissionsOfFrame());
-  for (const TechniqueEntry& entry : techniques()) printOmissions(entry.name, entry.omissions());
+  for (const TechniqueInfo* info : techniques()) printOmissions(info->name, info->omissions);
 }
 
 void printProgram() {

@@ -58,8 +58,7 @@ std::string describeUnknown(const CLI::App& app, const std::string& word) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   const CLI::App& command = chosen.empty() ? app : *chosen.front();
   const bool isFlag = word.size() > 1 && word[0] == '-';
-  if (!isFlag && !chosen.empty())
-    return "nothing is known to do with '" + word + "' after '" + command.get_name() + "'";
+  if (!isFlag && !chosen.empty()) return "unexpected '" + word + "' after '" + command.get_name() + "'";
   const std::string nearest = nearestName(word.substr(0, word.find('=')), knownWords(command, isFlag));
   return "unknown " + std::string(isFlag ? "option '" : "command '") + word + "'" +
          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
@@ -82,7 +81,7 @@ ExitStatus runProgram(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   app.footer("Exit status: 0 done; 1 it could not be done; 2 the input is wrong; 130 interrupted.");
   const Command commands[] = {addRender(app), addMeasure(app), addCompare(app), addBake(app),
-                              addBench(app),  addInfo(app),    addView(app)};
+                              addBench(app),  addInfo(app),    addView(app),    addHelp(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

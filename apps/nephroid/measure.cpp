@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,7 +11,8 @@
 #include "reference/sensor.h"
 #include "refining.h"
 #include "render/technique_meter.h"
-#include "techniques/sources.h"
+#include "techniques/registry.h"
+#include "transport/scene_transport.h"
 #include "transport/traced/traced_source.h"
 
 namespace nephroid {
@@ -18,7 +20,7 @@ namespace {
 
 struct MeasureOptions : CommonOptions {
   std::string sensor;
-  TechniqueSettings technique;
+  PictureSettings picture;
   ReferenceOptions reference;
 };
 
@@ -43,10 +45,18 @@ CausticsMeter beamsMeter(const Scene& scene, const RayScene& rays, const Sensor&
                          const TechniqueSettings& settings, Progress& progress, Stats& stats) {
   const auto traced = std::make_shared<TracedSource>(scene, rays);
   std::shared_ptr<TransportSource> source = traced;
-  if (settings.source == Source::table) source = makeTableSource(scene, settings, *traced, progress);
+  const TransportSettings transport = transportOf(settings);
+  if (transport.source == Source::table) source = makeTableSource(scene, transport, *traced, progress);
   return [&, traced, source] {
-    return measureBeams(scene, rays, *source, sensor, settings.paths, settings.refineDepth, progress, stats);
+    return measureBeams(scene, rays, *source, sensor, settings.transport.paths, settings.beams.refineDepth,
+                        progress, stats);
   };
+}
+
+bool asksForSensorPlane(const TechniqueSettings& settings) {
+  return std::ranges::any_of(techniques(), [&](const TechniqueInfo* info) {
+    return info->isInSensorPlane && info->isInSensorPlane(settings);
+  });
 }
 
 // Through the technique as it draws.
@@ -65,8 +75,7 @@ void measureReference(const MeasureOptions& options) {
   const Scene scene = loadScene(options.scene, options.time);
   const Sensor& sensor = sensorNamed(scene, options.sensor);
   const RayScene rays(scene);
-  const ReferenceSettings settings =
-      referenceSettings(options.reference, options.technique, sensor.resolution);
+  const ReferenceSettings settings = referenceSettings(options.reference, options.picture, sensor.resolution);
   ReferenceSensor counter(scene, rays, sensor, settings);
   stats.prepareMilliseconds = preparing.milliseconds();
   refineToFile(counter, {options, options.reference, settings, scene, "lux", sensor.name}, progress, stats);
@@ -76,12 +85,15 @@ void measureReference(const MeasureOptions& options) {
 void runMeasure(const MeasureOptions& options) {
   checkOutput(options.output, options.scene, {".exr"});
   if (!options.stats.empty()) checkOutput(options.stats, options.scene);
-  if (options.technique.technique == kReferenceName) return measureReference(options);
-  const TechniqueSettings& settings = options.technique;
+  if (isReference(options.picture)) return measureReference(options);
+  const TechniqueSettings& settings = options.picture.technique;
+  const TechniqueInfo& info = techniqueNamed(settings.technique);
+  if (!info.isInSensorPlane && asksForSensorPlane(settings))
+    throw InputError("--planes sensor: " + settings.technique +
+                     " draws on no virtual planes across the light");
   Progress progress(progressDisplay(options.isQuiet));
   Stats stats;
-  stats.technique = settings.technique;
-  stats.source = nameOf(settings.source);
+  describeSettings(options.picture, stats);
 
   const Stopwatch preparing;
   const Scene scene = loadScene(options.scene, options.time);
@@ -89,7 +101,10 @@ void runMeasure(const MeasureOptions& options) {
   const RayScene rays(scene);
   std::optional<gpu::Device> device;
   CausticsMeter caustics;
-  if (settings.planes == 0 && settings.technique != "none") {
+  if (!info.traits.drawsCaustics) {
+    stats.device = "host";
+    caustics = [&] { return SensorLayer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0)); };
+  } else if (info.isInSensorPlane && info.isInSensorPlane(settings)) {
     stats.device = "host";
     caustics = beamsMeter(scene, rays, sensor, settings, progress, stats);
   } else {
@@ -104,7 +119,7 @@ void runMeasure(const MeasureOptions& options) {
 
   const SensorLayer direct = measureDirect(scene, rays, sensor, progress);
   writeExr(options.output, sensorImage(scene, sensor, direct, causticsLayer),
-           imageAttributes(settings, "lux"));
+           imageAttributes(options.picture, "lux"));
   writeStats(options.stats, stats);
 }
 
@@ -122,7 +137,7 @@ Command addMeasure(CLI::App& program) {
             "The EXR to write, 32-bit float, in lux: R,G,B the total; direct.R,G,B light that met no caster; "
             "caustics.R,G,B light that met at least one");
   addTime(*command, options->time);
-  addTechnique(*command, options->technique, true);
+  addTechniqueOfSensor(*command, options->picture);
   addReference(*command, options->reference);
   addResume(*command, options->reference);
   addRepeat(*command, options->repeat);

@@ -31,18 +31,23 @@ std::function<std::string(const std::string&)> oneOf(std::vector<std::string> na
 
 std::vector<std::string> techniqueList() {
   std::vector<std::string> names;
-  for (const TechniqueEntry& entry : techniques()) names.emplace_back(entry.name);
+  for (const TechniqueInfo* info : techniques()) names.emplace_back(info->name);
   names.emplace_back(kReferenceName);
   return names;
 }
 
-std::vector<ImageAttribute> imageAttributes(const TechniqueSettings& settings, const std::string& unit) {
-  return {{"software", std::string("nephroid ") + NEPHROID_VERSION},
-          {"technique", settings.technique},
-          {"source", std::string(nameOf(settings.source))},
-          {"paths", std::string(nameOf(settings.paths))},
-          {"interpolation", std::string(nameOf(settings.interpolation))},
-          {"unit", unit}};
+bool isReference(const PictureSettings& settings) {
+  return settings.technique.technique == kReferenceName;
+}
+
+std::vector<ImageAttribute> imageAttributes(const PictureSettings& settings, const std::string& unit) {
+  Stats described;
+  describeSettings(settings, described);
+  std::vector<ImageAttribute> attributes{{"software", std::string("nephroid ") + NEPHROID_VERSION},
+                                         {"technique", described.technique},
+                                         {"unit", unit}};
+  for (const auto& [flag, value] : described.settings) attributes.push_back({flag, value});
+  return attributes;
 }
 
 void addScene(CLI::App& command, fs::path& scene) {
@@ -124,76 +129,65 @@ void addStats(CLI::App& command, fs::path& stats) {
       ->type_name("FILE.json");
 }
 
-void addField(CLI::App& command, const SettingField& field, TechniqueSettings& settings, bool isSensorKnown) {
-  CLI::Option* option =
-      command.add_option(std::string("--") + field.flag, settings.*field.member, field.help);
-  const std::string range = std::to_string(field.minimum) + " to " + std::to_string(field.maximum);
-  const bool hasZeroWord = isSensorKnown && field.zeroWord;
-  const std::string words = hasZeroWord ? range + ", or " + field.zeroWord : range;
-  const auto check = [=](std::string& text) -> std::string {
-    if (hasZeroWord && text == field.zeroWord) {
-      text = "0";
-      return {};
-    }
-    uint32_t number = 0;
-    const bool isNumber = CLI::detail::lexical_cast(text, number);
-    if (isNumber && number >= field.minimum && number <= field.maximum) return {};
-    return "'" + text + "' is not a whole number from " + words;
-  };
-  option->transform(CLI::Validator(check, "(" + words + ")"))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group("Technique");
+void addSetting(CLI::App& command, const Setting& setting, void* owner, const std::string& group,
+                bool takesWord) {
+  const std::string flag = std::string("--") + setting.flag;
+  const bool isChoice = setting.kind == SettingKind::choice;
+  const bool hasWord = takesWord && setting.wordForZero;
+  const std::string range = rangeOf(setting) + (hasWord ? std::string(", or ") + setting.wordForZero : "");
+  CLI::Option* option = command.add_option_function<std::string>(
+      flag,
+      [=](const std::string& text) {
+        const std::string wrong = setFromText(setting, owner, text, takesWord);
+        if (!wrong.empty()) throw CLI::ValidationError(flag, wrong);
+      },
+      isChoice ? setting.help : setting.help + (" (" + range + ")"));
+  option->type_name(isChoice ? range : "N")->group(group);
+  if (hasDefault(setting, owner)) option->default_str(textOf(setting, owner));
 }
 
-void addPart(CLI::App& command, const PartField& field, TechniqueSettings& settings) {
-  const auto check = [](const std::string& text) -> std::string {
-    float part = 0;
-    if (CLI::detail::lexical_cast(text, part) && part >= 0 && part <= 1) return {};
-    return "'" + text + "' is not a number from 0 to 1";
-  };
-  command.add_option(std::string("--") + field.flag, settings.*field.member, field.help)
-      ->check(CLI::Validator(check, "(0 to 1)"))
-      ->type_name("PART")
-      ->capture_default_str()
-      ->group("Technique");
+void addSettings(CLI::App& command, std::span<const SettingsView> views, bool takesWord) {
+  for (const SettingsView& view : views)
+    for (const Setting& setting : view.settings)
+      addSetting(command, setting, view.values, view.owner, takesWord);
 }
 
-void addTechnique(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown) {
+namespace {
+
+void addTechniqueName(CLI::App& command, TechniqueSettings& settings) {
   const std::vector<std::string> names = techniqueList();
-  command.add_option("--technique", settings.technique, "How caustics are made: " + joined(names))
+  command
+      .add_option("--technique", settings.technique,
+                  "How caustics are made: " + joined(names) + "; `nephroid help NAME` tells more of one")
       ->check(oneOf(names))
       ->type_name("NAME")
-      ->capture_default_str()
-      ->group("Technique");
-  addTechniqueSettings(command, settings, isSensorKnown);
+      ->capture_default_str();
 }
 
-void addChoice(CLI::App& command, const ChoiceField& field, TechniqueSettings& settings) {
-  const std::vector<std::string> names(field.names.begin(), field.names.end());
+void addBaked(CLI::App& command, TechniqueSettings& settings) {
   command
-      .add_option_function<std::string>(
-          std::string("--") + field.flag,
-          [&settings, &field, names](const std::string& value) {
-            field.set(settings, uint32_t(std::ranges::find(names, value) - names.begin()));
-          },
-          field.help)
-      ->check(oneOf(names))
-      ->type_name(joined(names, "|"))
-      ->default_str(field.names[field.get(settings)])
-      ->group("Technique");
+      .add_option("--baked", settings.baked,
+                  "What `nephroid bake` wrote for this scene and technique: light transport tables, or "
+                  "irradiance volumes")
+      ->type_name("FILE");
 }
 
-void addTechniqueSettings(CLI::App& command, TechniqueSettings& settings, bool isSensorKnown) {
-  for (const ChoiceField& field : choiceFields()) addChoice(command, field, settings);
-  command
-      .add_option(
-          "--baked", settings.baked,
-          "The light transport tables or irradiance volumes that `nephroid bake` wrote for this scene")
-      ->type_name("FILE")
-      ->group("Technique");
-  for (const SettingField& field : settingFields()) addField(command, field, settings, isSensorKnown);
-  for (const PartField& field : partFields()) addPart(command, field, settings);
+}  // namespace
+
+void addTechnique(CLI::App& command, PictureSettings& settings) {
+  addTechniqueName(command, settings.technique);
+  addPictureSettings(command, settings);
+}
+
+void addTechniqueOfSensor(CLI::App& command, PictureSettings& settings) {
+  addTechniqueName(command, settings.technique);
+  addBaked(command, settings.technique);
+  addSettings(command, allSettings(settings.technique), true);
+}
+
+void addPictureSettings(CLI::App& command, PictureSettings& settings) {
+  addBaked(command, settings.technique);
+  addSettings(command, allSettings(settings));
 }
 
 void checkOutput(const fs::path& file, const fs::path& scene, std::initializer_list<const char*> extensions) {

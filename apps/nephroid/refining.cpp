@@ -11,20 +11,6 @@
 namespace nephroid {
 namespace {
 
-constexpr uint32_t kDefaultPasses = 64;
-constexpr uint32_t kMostPhotons = 1u << 24;
-
-// "0.01" or "1%".
-double fractionOf(const std::string& text) {
-  const bool isPercent = !text.empty() && text.back() == '%';
-  double value = 0;
-  const bool isNumber = CLI::detail::lexical_cast(isPercent ? text.substr(0, text.size() - 1) : text, value);
-  if (!isNumber || !(value > 0) || !std::isfinite(value))
-    throw CLI::ValidationError("--error",
-                               "'" + text + "' is not a relative error above zero, such as 0.01 or 1%");
-  return isPercent ? value / 100 : value;
-}
-
 std::string hexadecimal(uint64_t value) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
@@ -84,46 +70,8 @@ void resume(Estimate& estimate, const ReferenceJob& job) {
 }  // namespace
 
 void addReference(CLI::App& command, ReferenceOptions& options) {
-  const char* group = "Reference";
-  command
-      .add_option("--passes", options.stop.passes,
-                  "Stop the reference after so many passes; 64 where no reason is given")
-      ->check(CLI::Range(1u, 1000000000u))
-      ->type_name("N")
-      ->group(group);
-  command.add_option("--seconds", options.stop.seconds, "Stop it after so long")
-      ->check(CLI::Range(0.001, 1e9))
-      ->type_name("SECONDS")
-      ->group(group);
-  command
-      .add_option_function<std::string>(
-          "--error", [&options](const std::string& text) { options.stop.error = fractionOf(text); },
-          "Stop it when the standard error of the caustics, over their value where they are, is this: 0.01 "
-          "or 1%")
-      ->type_name("FRACTION")
-      ->group(group);
-  command.add_option("--seed", options.seed, "Of its random numbers")
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--photons", options.photons, "Photons that it traces in a pass")
-      ->check(CLI::Range(1u, kMostPhotons))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(group);
-  options.spectrum = command
-                         .add_option_function<std::string>(
-                             "--spectrum",
-                             [&options](const std::string& name) {
-                               options.givenSpectrum =
-                                   name == "channels" ? Spectrum::channels : Spectrum::continuous;
-                             },
-                             "Dispersion in the reference: red, green and blue with an index each, or "
-                             "wavelengths. Left out: "
-                             "channels with --paths transmission, as the techniques; or else continuous")
-                         ->check(oneOf({"channels", "continuous"}))
-                         ->type_name("channels|continuous")
-                         ->group(group);
+  const SettingsView view{"Reference", referenceSettings(), &options.choices};
+  addSettings(command, {&view, 1});
   options.paths = command.get_option("--paths");
 }
 
@@ -132,23 +80,10 @@ void addResume(CLI::App& command, ReferenceOptions& options) {
       ->group("Reference");
 }
 
-ReferenceSettings referenceSettings(const ReferenceOptions& options, const TechniqueSettings& technique,
+ReferenceSettings referenceSettings(const ReferenceOptions& options, const PictureSettings& picture,
                                     uvec2 size) {
-  ReferenceSettings settings;
-  settings.size = size;
-  settings.paths = options.paths->count() > 0 ? technique.paths : Paths::all;
-  settings.spectrum = options.spectrum->count() > 0           ? options.givenSpectrum
-                      : settings.paths == Paths::transmission ? Spectrum::channels
-                                                              : Spectrum::continuous;
-  settings.seed = options.seed;
-  settings.photons = options.photons;
-  return settings;
-}
-
-StopRule stopRuleOf(const ReferenceOptions& options) {
-  StopRule rule = options.stop;
-  if (rule.passes == 0 && rule.seconds <= 0 && rule.error <= 0) rule.passes = kDefaultPasses;
-  return rule;
+  const Paths paths = options.paths->count() > 0 ? picture.technique.transport.paths : Paths::all;
+  return referenceSettingsOf(options.choices, paths, size);
 }
 
 std::vector<ImageAttribute> referenceAttributes(const Estimate& estimate, const ReferenceJob& job) {
@@ -170,7 +105,8 @@ void refineToFile(Estimate& estimate, const ReferenceJob& job, Progress& progres
   if (job.options.resumes) resume(estimate, job);
   const uint32_t before = estimate.passes();
   const Stopwatch watch;
-  const bool isDone = refine(estimate, stopRuleOf(job.options), progress, [&] { write(estimate, job); });
+  const bool isDone =
+      refine(estimate, stopRuleOf(job.options.choices), progress, [&] { write(estimate, job); });
   const uint32_t made = estimate.passes() - before;
   stats.frameMilliseconds = made > 0 ? watch.milliseconds() / made : 0;
   stats.counts.emplace_back("passes", estimate.passes());

@@ -5,32 +5,25 @@
 
 #include "command.h"
 #include "reference/refine.h"
+#include "reference/settings.h"
 #include "scene/scene.h"
 
 namespace nephroid {
 
 struct ReferenceOptions {
-  StopRule stop;
-  uint64_t seed = 1;
-  uint32_t photons = 1u << 20;  // a pass
+  ReferenceChoices choices;
   bool resumes = false;
-  const CLI::Option* paths = nullptr;     // of the technique; whether they were given
-  const CLI::Option* spectrum = nullptr;  // whether it was given
-  Spectrum givenSpectrum = Spectrum::continuous;
+  const CLI::Option* paths = nullptr;  // of the technique; whether they were given
 };
 
-// --passes, --seconds, --error, --seed, --photons, --spectrum; after addTechnique.
+// The settings of the reference; after addTechnique.
 void addReference(CLI::App& command, ReferenceOptions& options);
 // --resume, for a command that writes one result.
 void addResume(CLI::App& command, ReferenceOptions& options);
 
-// All paths unless others were asked for; wavelengths, but for transmission alone the channels that the
-// papers' model has.
-ReferenceSettings referenceSettings(const ReferenceOptions& options, const TechniqueSettings& technique,
+// All paths unless others were asked for.
+ReferenceSettings referenceSettings(const ReferenceOptions& options, const PictureSettings& picture,
                                     uvec2 size);
-
-// When to stop where the user did not say.
-StopRule stopRuleOf(const ReferenceOptions& options);
 
 // What a result is written as: the output, and what its file says of itself.
 struct ReferenceJob {

@@ -21,7 +21,7 @@ struct FrameRange {
 };
 
 struct RenderOptions : CommonOptions {
-  TechniqueSettings technique;
+  PictureSettings picture;
   uvec2 size{640, 480};  // pixels
   std::optional<FrameRange> frames;
   double framesPerSecond = 60;
@@ -50,7 +50,7 @@ std::vector<FrameJob> jobsOf(const RenderOptions& options) {
   return jobs;
 }
 
-void writePicture(Renderer& renderer, const TechniqueSettings& settings, const fs::path& output) {
+void writePicture(Renderer& renderer, const PictureSettings& settings, const fs::path& output) {
   if (output.extension() == ".png")
     writePng(output, renderer.picture());
   else
@@ -60,11 +60,11 @@ void writePicture(Renderer& renderer, const TechniqueSettings& settings, const f
 // Draws and writes a frame; returns the times of all its repetitions.
 std::vector<FrameTime> drawJob(const RenderOptions& options, const FrameJob& job, gpu::Device& device,
                                Progress& progress, Stats& stats, WaveRuns& waves) {
-  const FrameRequest request{options.scene, job.time,       options.technique,
+  const FrameRequest request{options.scene, job.time,       options.picture,
                              options.size,  options.repeat, job.output.filename().string(),
                              &waves};
   return drawFrame(request, device, progress, stats,
-                   [&](Renderer& renderer) { writePicture(renderer, options.technique, job.output); });
+                   [&](Renderer& renderer) { writePicture(renderer, options.picture, job.output); });
 }
 
 void renderReference(const RenderOptions& options, const std::vector<FrameJob>& jobs) {
@@ -80,7 +80,7 @@ void renderReference(const RenderOptions& options, const std::vector<FrameJob>& 
     common.output = job.output;
     const Scene scene = loadScene(options.scene, job.time, &waves);
     const RayScene rays(scene);
-    const ReferenceSettings settings = referenceSettings(options.reference, options.technique, options.size);
+    const ReferenceSettings settings = referenceSettings(options.reference, options.picture, options.size);
     ReferenceImage image(scene, rays, settings);
     stats.prepareMilliseconds += preparing.milliseconds();
     refineToFile(image, {common, options.reference, settings, scene, "nit", ""}, progress, stats);
@@ -92,15 +92,14 @@ void runRender(const RenderOptions& options) {
   const std::vector<FrameJob> jobs = jobsOf(options);
   checkOutput(jobs.front().output, options.scene, {".png", ".exr"});
   if (!options.stats.empty()) checkOutput(options.stats, options.scene);
-  if (options.technique.technique == kReferenceName) return renderReference(options, jobs);
+  if (isReference(options.picture)) return renderReference(options, jobs);
 
   Progress progress(progressDisplay(options.isQuiet));
   loadScene(options.scene, options.time);  // what is wrong with it is told before a device is looked for
   gpu::Device device({.device = options.device});
   Stats stats;
   stats.device = device.info().name;
-  stats.technique = options.technique.technique;
-  stats.source = nameOf(options.technique.source);
+  describeSettings(options.picture, stats);
 
   std::vector<FrameTime> times;
   WaveRuns waves;
@@ -145,7 +144,7 @@ Command addRender(CLI::App& program) {
   addSize(*command, options->size);
   addTime(*command, options->time);
   addFrames(*command, *options);
-  addTechnique(*command, options->technique, false);
+  addTechnique(*command, options->picture);
   addReference(*command, options->reference);
   addResume(*command, options->reference);
   addDevice(*command, options->device);

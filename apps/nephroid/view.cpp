@@ -15,7 +15,7 @@ Command addView(CLI::App& program) {
       ->type_name("");
   addSize(*command, options->size);
   addTime(*command, options->time);
-  addTechnique(*command, options->technique, false);
+  addTechnique(*command, options->settings);
   addDevice(*command, options->device);
   command
       ->add_option("--frames", options->frames,

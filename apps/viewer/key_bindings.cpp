@@ -18,14 +18,14 @@ namespace {
 constexpr double kFrame = 1.0 / 60;  // s
 
 void stepTechnique(Viewer& viewer, std::size_t steps) {
-  std::string& technique = viewer.state().settings.technique;
-  const std::span<const TechniqueEntry> all = techniques();
-  const auto now = std::ranges::find(all, technique, &TechniqueEntry::name);
-  technique = all[(static_cast<std::size_t>(now - all.begin()) + steps) % all.size()].name;
+  std::string& technique = viewer.state().settings.technique.technique;
+  const std::span<const TechniqueInfo* const> all = techniques();
+  const auto now = std::ranges::find(all, &techniqueNamed(technique));
+  technique = all[(static_cast<std::size_t>(now - all.begin()) + steps) % all.size()]->name;
 }
 
 void changeSource(Viewer& viewer) {
-  Source& source = viewer.state().settings.source;
+  Source& source = viewer.state().settings.technique.transport.source;
   source = source == Source::table ? Source::traced : Source::table;
 }
 

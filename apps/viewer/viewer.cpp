@@ -46,7 +46,7 @@ Viewer::Viewer(const ViewerOptions& options, const ViewerPreferences& preference
       graphics_(std::make_unique<Graphics>(window_, options)),
       framesToGo_(kFramesToSettle) {
   if (options.size.x > 0) window_.resizeFramebuffer(options.size + uvec2(uint32_t(panelWidth()), 0));
-  state_.settings = options.technique;
+  state_.settings = options.settings;
   state_.arePanelsShown = preferences.arePanelsShown;
   state_.areTimesShown = preferences.areTimesShown;
   state_.device = graphics_->device().info().name;
@@ -80,7 +80,7 @@ void Viewer::prepareWhatIsWanted() {
   failed_.reset();
   const Stage* stage = graphics_->stage.get();
   if (stage && stage->settings() == state_.settings &&
-      !needsPreparation(stateOf(stage->scene()), wanted, state_.settings))
+      !needsPreparation(stateOf(stage->scene()), wanted, state_.settings.technique))
     return;
   opensScene_ = false;
   prepare([scene = state_.scene] { return scene; });
@@ -228,8 +228,8 @@ uvec2 Viewer::pictureSize() const {
 bool Viewer::drawPicture() {
   if (!graphics_->stage || !state_.isOpen) return false;
   Stage& stage = *graphics_->stage;
-  const Drawn wanted{stateOf(state_.scene), state_.scene.time, pictureSize(), stage.settings().paths,
-                     stageCount_};
+  const Drawn wanted{stateOf(state_.scene), state_.scene.time, pictureSize(),
+                     stage.settings().technique.transport.paths, stageCount_};
   if (wanted == drawn_ && options_.frames == 0) return false;
   if (wanted.size != stage.size()) stage.resize(wanted.size);
   const Clock::time_point start = Clock::now();
@@ -262,7 +262,7 @@ void Viewer::layOut() {
 void Viewer::showTitle() {
   if (!state_.isOpen || !graphics_->stage) return;
   window_.setTitle(state_.file.filename().string() + (isSaved() ? "" : "*") + " - " +
-                   graphics_->stage->settings().technique + " - nephroid");
+                   graphics_->stage->settings().technique.technique + " - nephroid");
 }
 
 void Viewer::showFrame() {
@@ -314,8 +314,7 @@ void Viewer::writeStatsOfFrames() const {
   if (options_.stats.empty()) return;
   Stats stats = state_.stats;
   stats.device = state_.device;
-  stats.technique = state_.settings.technique;
-  stats.source = nameOf(state_.settings.source);
+  describeSettings(state_.settings, stats);
   stats.prepareMilliseconds = prepareMilliseconds_;
   stats.frameMilliseconds = median(frameMilliseconds_);
   stats.passes = state_.times.passes();

@@ -5,13 +5,13 @@
 #include <string>
 
 #include "core/shared_language.h"
-#include "techniques/settings.h"
+#include "render/settings.h"
 
 namespace nephroid {
 
 struct ViewerOptions {
   std::filesystem::path scene;  // empty: none yet
-  TechniqueSettings technique;
+  PictureSettings settings;
   uvec2 size{0};                // of the picture, pixels; 0: as the window was left last
   double time = 0;              // s
   std::string device;           // as gpu::DeviceOptions has it

@@ -127,9 +127,9 @@ class Viewer {
   bool opensScene_ = false;  // what is to be shown is another scene, not this one with other settings
   std::filesystem::path opening_;
   std::string openingText_;
-  bool keepsCamera_ = false;                                        // of the scene that is opened
-  std::optional<std::pair<SceneState, TechniqueSettings>> failed_;  // what could not be prepared
-  Clock::time_point lastLoss_{};                                    // of the device
+  bool keepsCamera_ = false;                                      // of the scene that is opened
+  std::optional<std::pair<SceneState, PictureSettings>> failed_;  // what could not be prepared
+  Clock::time_point lastLoss_{};                                  // of the device
   Clock::time_point preparationStart_;
   double prepareMilliseconds_ = 0;
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "render/settings.h"
 #include "techniques/pass_output.h"
 #include "viewer/frame_times.h"
 #include "viewer/picking.h"
@@ -44,7 +45,7 @@ struct ViewerState {
   std::filesystem::path file;  // of the scene
   bool isOpen = false;         // there is a scene
   Scene scene;                 // as it is shown
-  TechniqueSettings settings;  // as they are wanted
+  PictureSettings settings;    // as they are wanted
   History history;
   SceneState firstState;  // as the file has it
   Selection selection;

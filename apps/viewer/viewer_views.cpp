@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/bounds.h"
+#include "techniques/registry.h"
 #include "viewer_loop.h"
 
 namespace nephroid {
@@ -30,10 +31,6 @@ std::optional<PictureLine> inPicture(const View& view, vec2 size, const SceneLin
   if (b.w < nearest) b = mix(b, a, (nearest - b.w) / (a.w - b.w));
   const auto pixel = [&](vec4 clip) { return (0.5f * vec2(clip) / clip.w + 0.5f) * size; };
   return PictureLine{pixel(a), pixel(b)};
-}
-
-bool hasBeams(const TechniqueSettings& settings) {
-  return settings.technique != "irradiance-volume" && settings.technique != "none";
 }
 
 }  // namespace
@@ -120,8 +117,9 @@ void Viewer::updateLines() {
   const auto add = [&](const std::vector<SceneLine>& some) {
     lines_.insert(lines_.end(), some.begin(), some.end());
   };
-  const Paths paths = stage.settings().paths;
-  const bool beams = hasBeams(stage.settings());
+  const TechniqueSettings& settings = stage.settings().technique;
+  const Paths paths = settings.transport.paths;
+  const bool beams = techniqueNamed(settings.technique).traits.usesBeams;
   if (state_.isOverlaid(Overlay::beams) && beams) add(beamLines(stage.transport(), paths, kMostLines));
   if (state_.isOverlaid(Overlay::culled) && beams)
     add(culledLines(stage.transport(), paths, kMostLines, state_.beamCounts));
@@ -129,8 +127,7 @@ void Viewer::updateLines() {
   if (state_.isOverlaid(Overlay::planes)) add(latticeLines(lattices, LatticeKind::planes));
   if (state_.isOverlaid(Overlay::slices)) add(latticeLines(lattices, LatticeKind::slices));
   if (state_.isOverlaid(Overlay::cells)) add(latticeLines(lattices, LatticeKind::cells));
-  if (lines_.empty())
-    tell(state_, "There is nothing of that kind in " + stage.settings().technique + " here");
+  if (lines_.empty()) tell(state_, "There is nothing of that kind in " + settings.technique + " here");
 }
 
 void Viewer::drawLines(vec2 corner, vec2 size) const {

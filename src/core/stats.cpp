@@ -21,9 +21,12 @@ std::string statsJson(const Stats& stats) {
     passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
   Json counts = Json::object();
   for (const auto& [name, count] : stats.counts) counts[name] = count;
+  Json settings = Json::object();
+  for (const auto& [flag, value] : stats.settings) settings[flag] = value;
   const Json document = {{"device", stats.device},
                          {"technique", stats.technique},
                          {"source", stats.source},
+                         {"settings", settings},
                          {"prepare_ms", stats.prepareMilliseconds},
                          {"frame_ms", stats.frameMilliseconds},
                          {"passes", passes},

@@ -1,6 +1,7 @@
 // The light directions that a caster's volume is made for, and how light from any other is found among them.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -13,6 +14,13 @@ namespace nephroid {
 // their weights. rotated: so too, each turned from its direction to the light's (Wyman 2004, section 5.2,
 // steps A to G). flow: so too, and moved by what was learnt of the caster (flow.h).
 enum class LightInterpolation { nearest, barycentric, rotated, flow };
+
+// What users call them.
+inline constexpr std::array<const char*, 4> kLightInterpolationNames{"nearest", "barycentric", "rotated",
+                                                                     "flow"};
+constexpr const auto& namesOf(LightInterpolation) {
+  return kLightInterpolationNames;
+}
 
 // A share of one sample.
 struct SampleShare {

@@ -17,7 +17,7 @@ BenchDevice::BenchDevice(const PaperBench& bench) {
 
 FrameBench::FrameBench(gpu::Device& device, const Scene& scene, const TechniqueSettings& settings,
                        const RenderSettings& render, Progress& progress)
-    : transport_(scene, settings, progress),
+    : transport_(scene, transportOf(settings), progress),
       technique_(makeTechnique({device, settings, transport_, stats_})),
       renderer_(device, transport_, render, *technique_) {}
 

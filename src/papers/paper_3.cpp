@@ -11,6 +11,8 @@
 #include "papers/paper_3_errors.h"
 #include "papers/paper_scenes.h"
 #include "papers/volume_sensor.h"
+#include "techniques/irradiance_volume/settings.h"
+#include "techniques/registry.h"
 
 namespace nephroid {
 namespace {
@@ -35,16 +37,17 @@ constexpr std::array<VolumeRow, 6> kVolumeRows{{{"sphere", 15.2, 17.3, 15.0, 8.1
 TechniqueSettings volumeSettings(Representation representation) {
   TechniqueSettings settings;
   settings.technique = "irradiance-volume";
-  settings.representation = representation;
+  settings.own.of<IrradianceVolumeSettings>().representation = representation;
   return settings;
 }
 
 // Frame rates do not depend on how many light directions there are; spherical harmonics need them all.
 TechniqueSettings harmonicSettings(uint32_t order) {
   TechniqueSettings settings = volumeSettings(Representation::harmonics);
-  settings.harmonicOrder = order;
-  settings.lightLevel = 0;
-  settings.volumePhotons = 20;
+  auto& own = settings.own.of<IrradianceVolumeSettings>();
+  own.harmonicOrder = order;
+  own.lightLevel = 0;
+  own.photons = 20;
   return settings;
 }
 
@@ -69,7 +72,7 @@ void addRates(PaperTable& table, const VolumeRow& row, const std::filesystem::pa
     const double seconds = frames.seconds(kCounts, scene);
     const std::string what = std::string(row.scene) + ", " + kept;
     table.figures.push_back({what, "frame rate", "1/s", paper, 1 / seconds, kFrameRatesAsked * paper});
-    if (settings.technique != "none")
+    if (techniqueNamed(settings.technique).traits.drawsCaustics)
       table.figures.push_back({what, "look-up", "ms", kNoFigure, frames.passMilliseconds("caustics")});
   };
   add("grid", volumeSettings(Representation::grid), row.grid);
@@ -93,8 +96,8 @@ gpu::Image imageOf(gpu::Device& device, const char* name, const std::vector<vec4
 // As many points as a picture has, all over the scene's first sensor, in one light sample: a sphere of few
 // triangles is no ball, and would be looked up in three.
 double lookUpMilliseconds(gpu::Device& device, const Scene& scene, Progress& progress) {
-  TechniqueSettings settings = volumeSettings(TechniqueSettings{}.representation);
-  settings.lightInterpolation = LightInterpolation::nearest;
+  TechniqueSettings settings = volumeSettings(IrradianceVolumeSettings{}.representation);
+  settings.own.of<IrradianceVolumeSettings>().lightInterpolation = LightInterpolation::nearest;
   const Sensor& sensor = scene.sensors[0];
   std::vector<vec4> points;
   for (uint32_t y = 0; y < kPictureSize.y; ++y)

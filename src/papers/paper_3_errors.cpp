@@ -9,7 +9,7 @@
 #include "papers/volume_sensor.h"
 #include "render/picture.h"
 #include "report/flip.h"
-#include "techniques/settings.h"
+#include "techniques/irradiance_volume/settings.h"
 
 namespace nephroid {
 namespace {
@@ -25,7 +25,7 @@ VolumeSettings settingsFor(uint32_t representation, uint32_t kilobytes) {
   VolumeSettings settings;
   settings.representation = representation;
   settings.kilobytes = kilobytes;
-  if (representation == kRepresentationMultiResolution) settings.error = TechniqueSettings{}.volumeError;
+  if (representation == kRepresentationMultiResolution) settings.error = IrradianceVolumeSettings{}.error;
   return settings;
 }
 
@@ -105,7 +105,8 @@ double readThrough(IrradianceVolume& volume, vec3 light, const Square& square) {
       const vec2 place = square.half * ((vec2(float(x), float(y)) + 0.5f) * (2.0f / kPoints) - 1.0f);
       const vec3 point = square.centre + square.frame * vec3(place, 0);
       sum += double(
-          volume.illuminance(point, -square.frame[2], light, TechniqueSettings{}.lightInterpolation).y);
+          volume.illuminance(point, -square.frame[2], light, IrradianceVolumeSettings{}.lightInterpolation)
+              .y);
     }
   return sum * double(4 * square.half * square.half) / (kPoints * kPoints);
 }
@@ -124,7 +125,7 @@ void addMemoryErrors(PaperTable& table, const std::filesystem::path& scenes, Pro
       for (const uint32_t representation : kRepresentations) {
         const uint32_t times = representation == kRepresentationMultiResolution ? kFinestTimes : 1;
         IrradianceVolume volume = volumeOf(scene, settingsFor(representation, times * row.kilobytes));
-        const SensorLayer layer = readVolume(scene, volume, TechniqueSettings{}.lightInterpolation, 3);
+        const SensorLayer layer = readVolume(scene, volume, IrradianceVolumeSettings{}.lightInterpolation, 3);
         const std::string what =
             name + ", " + std::to_string(row.kilobytes) + " kB, " + nameOfKept(representation);
         table.figures.push_back(
@@ -176,7 +177,8 @@ void addMotionErrors(PaperTable& table, const std::filesystem::path& scenes, Pro
       truth.push_back(readBeams(scene, progress));
       scene.lights[0].direction = turn * scene.lights[0].direction;
     }
-    IrradianceVolume volume = volumeOf(scene, settingsFor(uint32_t(TechniqueSettings{}.representation), 360));
+    IrradianceVolume volume =
+        volumeOf(scene, settingsFor(uint32_t(IrradianceVolumeSettings{}.representation), 360));
     for (std::size_t i = 0; i < namesOf(LightInterpolation{}).size(); ++i) {
       double steps = 0, errors = 0, mean = 0;
       SensorLayer before;

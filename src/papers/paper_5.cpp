@@ -8,6 +8,7 @@
 #include "papers/frame_bench.h"
 #include "papers/paper_scenes.h"
 #include "scene/framing.h"
+#include "techniques/light_volumes/settings.h"
 #include "water/water.h"
 
 namespace nephroid {
@@ -107,10 +108,10 @@ void addRow(PaperTable& table, const Pool& view, std::size_t grid, const Scene& 
                            std::to_string(kGrids[grid]) + " squared";
   TechniqueSettings exact;
   exact.technique = "light-volumes";
-  exact.source = Source::traced;
+  exact.transport.source = Source::traced;
   TechniqueSettings still = exact, flat = exact;
-  still.cosine = Cosine::stillWater;
-  flat.culling = Culling::flat;
+  still.own.of<LightVolumeSettings>().cosine = Cosine::stillWater;
+  flat.own.of<LightVolumeSettings>().culling = Culling::flat;
   const auto add = [&](const char* quantity, const char* unit, double paper, double ours, double asked) {
     table.figures.push_back({name, quantity, unit, paper, ours, asked});
   };

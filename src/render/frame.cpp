@@ -55,14 +55,6 @@ bool hasEmission(const Scene& scene) {
 
 }  // namespace
 
-RenderSettings renderSettings(const TechniqueSettings& settings, uvec2 size) {
-  RenderSettings render;
-  render.size = size;
-  render.sight.slices = settings.slices;
-  render.shafts = {settings.airPlanes, settings.airSubplanes, float(settings.airError) / 1000};
-  return render;
-}
-
 Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderSettings& settings,
                    Technique& technique)
     : device_(device),
@@ -93,7 +85,7 @@ void Renderer::resize(uvec2 size) {
 std::vector<PassTime> Renderer::render(const Scene& scene) {
   std::vector<PassTime> passes;
   onHost(passes, "placement", [&] { place(scene); });
-  const Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.followsCamera());
+  const Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.traits().followsCamera);
   onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_, shafts_.lightsInAir()); });
   if (remade.beams) onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
   if (remade.sight)

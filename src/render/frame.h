@@ -8,25 +8,13 @@
 #include "render/frame_data.h"
 #include "render/frame_resources.h"
 #include "render/last_scene.h"
+#include "render/settings.h"
 #include "render/sight/sight_pass.h"
 #include "render/view.h"
-#include "techniques/sources.h"
 #include "techniques/technique.h"
+#include "transport/scene_transport.h"
 
 namespace nephroid {
-
-struct RenderSettings {
-  uvec2 size{640, 480};        // pixels
-  uint32_t shadowMapSize = 0;  // texels along a side; 0: as many as pixels along the picture's longer side
-  SightSettings sight;
-  ShaftSettings shafts;
-  // Shadow maps and beams of the last frame are kept while all that they depend on stands still. Without it
-  // each frame does all that a moved light would change.
-  bool keepsLight = false;
-};
-
-// A picture of `size` pixels as `settings` ask for it.
-RenderSettings renderSettings(const TechniqueSettings& settings, uvec2 size);
 
 // An object as it is drawn.
 struct Surface {

@@ -13,7 +13,7 @@ constexpr uint32_t kPointsAlongTexel = 4;  // at once
 constexpr uint32_t kPasses = 4;            // times, between them
 
 uint32_t pointsAlongTexel(const Technique& technique) {
-  return technique.coversSquares() ? 1 : kPointsAlongTexel;
+  return technique.traits().coversSquares ? 1 : kPointsAlongTexel;
 }
 
 // The scene and a diffuse quad on the sensor, since techniques light receivers; and a camera that looks at it
@@ -59,7 +59,7 @@ TechniqueMeter::TechniqueMeter(gpu::Device& deviceToUse, const Scene& sceneToRea
       sensor(sensorToRead),
       scene(withReceiver(sceneToRead, sensorToRead)),
       gpuScene(device, scene),
-      transport(scene, settings, progress),
+      transport(scene, transportOf(settings), progress),
       technique(makeTechnique({device, settings, transport, stats})),
       positions(pointImage(device, "sensor positions", sensor, *technique)),
       normals(pointImage(device, "sensor normals", sensor, *technique)),
@@ -102,7 +102,7 @@ SensorLayer TechniqueMeter::read() {
   gpuScene.place(scene);
   technique->update(gpuScene);
   SensorLayer layer;
-  const uint32_t passes = technique->coversSquares() ? 1 : kPasses;
+  const uint32_t passes = technique->traits().coversSquares ? 1 : kPasses;
   device.submitAndWait([&](gpu::CommandList& commands) { technique->record(commands, gpuScene); });
   do {
     layer.assign(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));

@@ -1,7 +1,8 @@
-// What is left out of what the reference computes, in words for a user: the one list behind `nephroid info`
-// and the reports.
+// What is left out of what the reference computes, in words for a user: behind `nephroid info` and the
+// reports.
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "scene/scene.h"
@@ -13,15 +14,45 @@ struct Omission {
   bool (*concerns)(const Scene& scene);  // whether a scene has what it is about
 };
 
-// By whatever draws caustics, because of the frame that they are drawn in.
-std::span<const Omission> omissionsOfFrame();
+// Whether one of a scene's objects has a material that passes the test.
+template <class Test>
+bool anyMaterial(const Scene& scene, const Test& test) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [&](const Object& object) { return test(scene.materialOf(object)); });
+}
 
-// By the techniques, besides.
-std::span<const Omission> omissionsOfAutomatic();
-std::span<const Omission> omissionsOfIlluminationTextures();
-std::span<const Omission> omissionsOfIrradianceVolumes();
-std::span<const Omission> omissionsOfSlicedImages();
-std::span<const Omission> omissionsOfLightVolumes();
-std::span<const Omission> omissionsOfNoCaustics();
+// Whether a scene has ...
+bool hasCaster(const Scene& scene);
+bool hasGlass(const Scene& scene);  // or water
+bool hasDispersion(const Scene& scene);
+bool hasNearLight(const Scene& scene);     // a caster, and a light that is not infinitely far away
+bool hasWaterOrSheet(const Scene& scene);  // water, or sheets too thin to bend light
+bool hasScattering(const Scene& scene);    // in water or glass
+
+// What several techniques leave out.
+namespace omissions {
+
+inline constexpr Omission kReflection{
+    "Reflection at glass, outside, inside and total, unless --paths all asks for it, and then most of "
+    "what is reflected after the fourth surface at which it could be reflected or transmitted",
+    hasGlass};
+inline constexpr Omission kSpectrum{
+    "The spectrum: light that disperses goes in three bands, red, green and blue, not by wavelength",
+    hasDispersion};
+inline constexpr Omission kFarFromMean{
+    "Light far from a caster's mean direction: what leaves it at more than 75 degrees from the mean, and "
+    "what reaches surfaces that another receiver hides along the mean or that face away from it",
+    hasCaster};
+inline constexpr Omission kPlaneDetail{
+    "Detail between the rays of a caster's vertices, and finer than a texel of the virtual planes",
+    hasCaster};
+inline constexpr Omission kScattering{"Light that water and glass scatter inside", hasScattering};
+// Of light volumes, which draw what water scatters.
+inline constexpr Omission kScatteringAside{
+    "What glass scatters inside, and what water scatters of light that met no surface before; what water "
+    "scatters, where mirrors and other glass show it, and where its surface reflects a part of it",
+    hasScattering};
+
+}  // namespace omissions
 
 }  // namespace nephroid

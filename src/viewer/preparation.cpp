@@ -1,10 +1,10 @@
 #include "viewer/preparation.h"
 
-#include "techniques/irradiance_volume/irradiance_volume.h"
+#include "techniques/registry.h"
 
 namespace nephroid {
 
-Preparation::Preparation(std::function<Scene()> load, const TechniqueSettings& settings)
+Preparation::Preparation(std::function<Scene()> load, const PictureSettings& settings)
     : load_(std::move(load)), prepared_(std::make_unique<Prepared>()) {
   prepared_->settings = settings;
   thread_ = std::thread([this] {
@@ -28,12 +28,11 @@ void Preparation::prepare() {
   made.scene = load_();
   made.progress.advance();
   made.progress.begin("Rays", 1);
-  made.transport = std::make_unique<SceneTransport>(made.scene, made.settings, made.progress);
+  made.transport =
+      std::make_unique<SceneTransport>(made.scene, transportOf(made.settings.technique), made.progress);
   made.progress.advance();
-  if (made.settings.technique == "irradiance-volume")
-    keepLightSamples(made.scene, made.settings, made.progress);
-  else if (made.settings.technique != "none")
-    made.transport->source();
+  const TechniqueInfo& info = techniqueNamed(made.settings.technique.technique);
+  if (info.prepare) info.prepare(made.scene, *made.transport, made.settings.technique, made.progress);
 }
 
 std::unique_ptr<Prepared> Preparation::take() {

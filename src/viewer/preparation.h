@@ -10,15 +10,16 @@
 #include <thread>
 
 #include "core/progress.h"
+#include "render/settings.h"
 #include "scene/scene.h"
-#include "techniques/sources.h"
+#include "transport/scene_transport.h"
 
 namespace nephroid {
 
 // Everything that drawing needs of the host. Stays where it was made: its parts look at each other.
 struct Prepared {
   Scene scene;
-  TechniqueSettings settings;
+  PictureSettings settings;
   Progress progress;
   std::unique_ptr<SceneTransport> transport;
 };
@@ -28,7 +29,7 @@ struct Prepared {
 class Preparation {
  public:
   // `load` gives the scene; it is called on that thread.
-  Preparation(std::function<Scene()> load, const TechniqueSettings& settings);
+  Preparation(std::function<Scene()> load, const PictureSettings& settings);
   ~Preparation();
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "beams/light_beams.h"
 #include "core/image_io.h"
 #include "scene/framing.h"
-#include "techniques/light_beams.h"
 
 namespace nephroid {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "techniques/lattice.h"
-#include "techniques/sources.h"
+#include "transport/scene_transport.h"
 
 namespace nephroid {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "geometry/shapes.h"
-#include "scene/volume.h"
+#include "techniques/registry.h"
 #include "water/water.h"
 
 namespace nephroid {
@@ -11,14 +11,9 @@ namespace {
 
 constexpr std::size_t kMostStates = 1000;
 
-// What of a material programs and tables are made for.
-bool isPreparedAlike(const Material& a, const Material& b, const TechniqueSettings& settings) {
-  const bool hasEmission = a.emission != vec3(0), willHaveEmission = b.emission != vec3(0);
-  if (a.type != b.type || hasEmission != willHaveEmission) return false;
-  if (settings.technique == "irradiance-volume")
-    return a.ior == b.ior && a.color == b.color && a.attenuationColor == b.attenuationColor &&
-           a.attenuationDistance == b.attenuationDistance && a.scattering == b.scattering;
-  return settings.source == Source::traced || a.ior == b.ior;
+// What of a material the frame's programs are made for.
+bool isDrawnAlike(const Material& a, const Material& b) {
+  return a.type == b.type && (a.emission != vec3(0)) == (b.emission != vec3(0));
 }
 
 std::vector<WaterDrop> dropsInto(const Object& object) {
@@ -30,10 +25,6 @@ void setDrops(Scene& scene, Object& object, std::vector<WaterDrop> drops) {
   if (!object.water->simulation) object.water->simulation.emplace();
   object.water->simulation->drops = std::move(drops);
   scene.meshes[object.mesh] = makeWater(*object.water, scene.time);
-}
-
-bool isTinted(const SceneState& state) {
-  return std::ranges::any_of(state.materials, [](const Material& m) { return extinctionOf(m) != vec3(0); });
 }
 
 }  // namespace
@@ -86,12 +77,10 @@ void dropStone(Scene& scene, uint32_t object, vec2 place) {
 }
 
 bool needsPreparation(const SceneState& before, const SceneState& after, const TechniqueSettings& settings) {
-  const auto isAlike = [&](const Material& a, const Material& b) { return isPreparedAlike(a, b, settings); };
-  if (!std::ranges::equal(before.materials, after.materials, isAlike)) return true;
-  if (settings.technique != "irradiance-volume") return false;
-  // What absorbs over a metre does so over less where the caster is scaled down.
-  const auto isAsLarge = [](const Placement& a, const Placement& b) { return a.scale == b.scale; };
-  return isTinted(after) && !std::ranges::equal(before.placements, after.placements, isAsLarge);
+  if (!std::ranges::equal(before.materials, after.materials, isDrawnAlike)) return true;
+  const TechniqueInfo& info = techniqueNamed(settings.technique);
+  return info.isStillPrepared && !info.isStillPrepared({before.materials, before.placements},
+                                                       {after.materials, after.placements}, settings);
 }
 
 void History::changeAll(const std::function<void(SceneState&)>& change) {

@@ -12,7 +12,7 @@ Stage::Stage(gpu::Device& device, std::unique_ptr<Prepared> prepared, uvec2 size
       renderer_(newRenderer(*technique_, size)) {}
 
 std::unique_ptr<Technique> Stage::newTechnique() {
-  return makeTechnique({device_, prepared_->settings, *prepared_->transport, stats_});
+  return makeTechnique({device_, prepared_->settings.technique, *prepared_->transport, stats_});
 }
 
 std::unique_ptr<Renderer> Stage::newRenderer(Technique& technique, uvec2 size) const {

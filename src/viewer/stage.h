@@ -24,7 +24,7 @@ class Stage {
   void remake();
 
   Renderer& renderer() { return *renderer_; }
-  const TechniqueSettings& settings() const { return prepared_->settings; }
+  const PictureSettings& settings() const { return prepared_->settings; }
   const Stats& stats() const { return stats_; }  // of the last frame: counts
   const RayScene& rayScene() const { return prepared_->transport->rayScene(); }
   SceneTransport& transport() { return *prepared_->transport; }

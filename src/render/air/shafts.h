@@ -10,17 +10,11 @@
 #include "gpu/resources.h"
 #include "render/air/air_data.h"
 #include "render/air/density_box.h"
+#include "render/air/settings.h"
 #include "render/direct_light.h"
 #include "render/view.h"
 
 namespace nephroid {
-
-struct ShaftSettings {
-  uint32_t planes = 0;     // sampling planes on each ray; 0: as many as `error` asks for
-  uint32_t subplanes = 0;  // sub-sample planes of each, used everywhere; 0: as many as `error` asks for, used
-                           // where light changes
-  float error = 0.004f;    // mean error over mean luminance that planes are chosen for
-};
 
 // One frame is update, then, when shadow maps and depths are drawn, choosePlanes, then record.
 class Shafts {

@@ -14,18 +14,14 @@
 #include "gpu_scene/gpu_scene.h"
 #include "render/frame_resources.h"
 #include "render/shadow_maps.h"
+#include "render/sight/settings.h"
 #include "render/sight/slices.h"
 #include "render/sight/ways_data.h"
 #include "render/view.h"
 #include "techniques/lattice.h"
-#include "techniques/sources.h"
+#include "transport/scene_transport.h"
 
 namespace nephroid {
-
-struct SightSettings {
-  uint32_t slices = 0;  // sliced object images of a caster; 0: as many as the depth of the receivers asks for
-  uint32_t sliceSize = 512;  // texels along a side of one, at least kSurroundingSize
-};
 
 // Receivers as frames of sight see them, one a layer.
 struct ReceiverImages {

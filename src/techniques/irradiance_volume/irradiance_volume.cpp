@@ -1,45 +1,28 @@
-#include "techniques/irradiance_volume/irradiance_volume.h"
-
+// Caustics looked up in a volume that was made for each caster beforehand: Wyman, Hansen and Shirley 2004,
+// "Interactive Caustics Using Local Precomputed Irradiance".
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
 #include <map>
-#include <set>
 #include <tuple>
 
-#include "core/cache_folder.h"
+#include "core/error.h"
 #include "gpu/program.h"
 #include "gpu/transfer.h"
 #include "irradiance_volume/harmonics.h"
 #include "irradiance_volume/volume_file.h"
 #include "lights/light_intensity.h"
+#include "scene/volume.h"
 #include "shaders/techniques/irradiance_volume/volume_frag.h"
 #include "shaders/techniques/whole_picture_vert.h"
 #include "techniques/irradiance_volume/cell_images.h"
+#include "techniques/irradiance_volume/scene_volumes.h"
 #include "techniques/irradiance_volume/shader_data.h"
+#include "techniques/technique_info.h"
 
 namespace nephroid {
 namespace {
-
-// Water has no region of its own, and a sheet too thin to bend light no caustic.
-bool hasVolume(const Scene& scene, const Object& object) {
-  const Material& material = scene.materialOf(object);
-  return material.isCaster() && !material.thinWalled && !object.water;
-}
-
-VolumeSettings volumeSettings(const TechniqueSettings& settings) {
-  VolumeSettings volume;
-  volume.representation = uint32_t(settings.representation);
-  volume.kilobytes = settings.volumeKilobytes;
-  volume.lightLevel = settings.lightLevel;
-  volume.radius = settings.volumeRadius;
-  volume.photons = settings.volumePhotons;
-  if (settings.representation == Representation::harmonics) volume.order = settings.harmonicOrder;
-  if (settings.representation == Representation::multiResolution) volume.error = settings.volumeError;
-  volume.paths = uint32_t(settings.paths);
-  return volume;
-}
 
 // Light of a volume on the device: as `representation` of lookup.h has it, in images or in words.
 struct HeldLight {
@@ -63,10 +46,13 @@ struct LookUpTraits {
   }
 };
 
-class IrradianceVolumes final : public Technique {
+constexpr TechniqueTraits kTraits{};
+
+class IrradianceVolumes final : public TechniqueBase {
  public:
   explicit IrradianceVolumes(const TechniqueContext& context);
 
+  TechniqueTraits traits() const override { return kTraits; }
   void update(GpuScene& gpuScene) override;
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
   std::vector<Lattice> lattices() const override;
@@ -96,7 +82,7 @@ class IrradianceVolumes final : public Technique {
   const gpu::Program& programFor(const LookUpTraits& traits);
 
   gpu::Device& device;
-  const TechniqueSettings settings;
+  const IrradianceVolumeSettings settings;
   Stats& stats;
   SceneTransport& transport;
   SceneVolumes volumes;
@@ -114,10 +100,10 @@ class IrradianceVolumes final : public Technique {
 
 IrradianceVolumes::IrradianceVolumes(const TechniqueContext& context)
     : device(context.device),
-      settings(context.settings),
+      settings(context.settings.own.of<IrradianceVolumeSettings>()),
       stats(context.stats),
       transport(context.transport),
-      volumes(sceneVolumes(transport.scene(), settings)),
+      volumes(sceneVolumes(transport.scene(), context.settings)),
       cellSampler(gpu::createSampler(device)),
       moveSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})),
       noMoves(gpu::createImage(device, "no irradiance flow", {})) {
@@ -271,7 +257,9 @@ void IrradianceVolumes::update(GpuScene&) {
   const auto add = [&](const HeldLight& held) { bytes += held.words.size() + cellBytes(held.cells); };
   for (const auto& [sample, held] : uploaded) add(held);
   for (const HeldLight& held : resolved) add(held);
-  stats.counts = {{"lookups", shares.size()}, {"light_samples", uploaded.size()}, {"volume_bytes", bytes}};
+  setCount(stats, "lookups", shares.size());
+  setCount(stats, "light_samples", uploaded.size());
+  setCount(stats, "volume_bytes", bytes);
 }
 
 void IrradianceVolumes::record(gpu::CommandList& commands, GpuScene&) {
@@ -320,67 +308,104 @@ void IrradianceVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& 
   });
 }
 
-}  // namespace
-
-SceneVolumes sceneVolumes(const Scene& scene, const TechniqueSettings& settings) {
-  const VolumeSettings wanted = volumeSettings(settings);
-  SceneVolumes all;
-  std::vector<VolumeKey> keys;
-  std::vector<std::size_t> owners;  // an object of each key
-  std::vector<std::size_t> keyOfObject(scene.objects.size(), kNone);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
-    if (!hasVolume(scene, object)) continue;
-    const Material material = materialInOwnSpace(scene.materialOf(object), object.placement.scale);
-    const VolumeKey key = volumeKey(scene.meshOf(object), material, wanted);
-    keyOfObject[i] = std::size_t(std::ranges::find(keys, key) - keys.begin());
-    if (keyOfObject[i] < keys.size()) continue;
-    keys.push_back(key);
-    owners.push_back(i);
-  }
-  std::vector<StoredVolume> stored;
-  if (!settings.baked.empty()) stored = openVolumes(settings.baked, keys);
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const Object& owner = scene.objects[owners[i]];
-    const Mesh& mesh = scene.meshOf(owner);
-    all.volumes.push_back(settings.baked.empty()
-                              ? std::make_unique<IrradianceVolume>(
-                                    mesh, materialInOwnSpace(scene.materialOf(owner), owner.placement.scale),
-                                    wanted, cacheFolder())
-                              : std::make_unique<IrradianceVolume>(mesh, std::move(stored[i])));
-  }
-  all.ofObject.resize(scene.objects.size(), nullptr);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    if (keyOfObject[i] != kNone) all.ofObject[i] = all.volumes[keyOfObject[i]].get();
-  return all;
-}
-
-void keepLightSamples(const Scene& scene, const TechniqueSettings& settings, Progress& progress) {
-  const SceneVolumes volumes = sceneVolumes(scene, settings);
-  std::set<std::pair<IrradianceVolume*, uint32_t>> samples;
-  for (uint32_t l = 0; l < scene.lights.size(); ++l)
-    for (const Emitter& emitter : emittersOf(scene.lights[l], l))
-      for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        IrradianceVolume* volume = volumes.ofObject[i];
-        if (!volume) continue;
-        const Placement& placement = scene.objects[i].placement;
-        const vec3 direction = emitterDirection(emitter, placement.point(volume->sphere().center));
-        if (settings.representation == Representation::harmonics)
-          samples.emplace(volume, 0);
-        else
-          for (const SampleShare& share : volume->lightSamples().around(placement.inverseDirection(direction),
-                                                                        settings.lightInterpolation))
-            samples.emplace(volume, share.sample);
-      }
-  progress.begin("Irradiance volumes", samples.size());
-  for (const auto& [volume, sample] : samples) {
-    volume->makeSample(sample);
-    progress.advance();
-  }
-}
-
-std::unique_ptr<Technique> makeIrradianceVolumes(const TechniqueContext& context) {
+std::unique_ptr<Technique> make(const TechniqueContext& context) {
   return std::make_unique<IrradianceVolumes>(context);
 }
+
+constexpr Setting kSettings[] = {
+    choiceSetting<&IrradianceVolumeSettings::representation>(
+        "representation",
+        "How an irradiance volume is kept: on an even grid, on concentric shells placed where the light "
+        "changes, on a grid whose bricks are as fine as the light needs, or as spherical harmonics over "
+        "light "
+        "directions",
+        true),
+    choiceSetting<&IrradianceVolumeSettings::lightInterpolation>(
+        "light-interpolation",
+        "Between the light directions of a volume: the nearest, the three around by their weights, these "
+        "turned "
+        "to the light, or moved on from there as the caster moves light"),
+    wholeSetting<&IrradianceVolumeSettings::kilobytes>(
+        "volume-kilobytes", 1, 65535, "Kilobytes of a volume for each light direction", true),
+    wholeSetting<&IrradianceVolumeSettings::lightLevel>(
+        "light-level", 0, kMostLightLevels,
+        "How often the icosahedron of light directions is cut finer: 10 * 4^N + 2 directions, fewer for "
+        "symmetric casters",
+        true),
+    wholeSetting<&IrradianceVolumeSettings::radius>(
+        "volume-radius", 2, 64,
+        "Where a volume ends, in radii of its caster's bounding sphere; beyond, light goes on as it left",
+        true),
+    wholeSetting<&IrradianceVolumeSettings::photons>("volume-photons", 1, 100000,
+                                                     "Thousands of photons for each light direction", true),
+    wholeSetting<&IrradianceVolumeSettings::harmonicOrder>("harmonic-order", 1, kMostHarmonicOrder,
+                                                           "Order of the spherical harmonics", true),
+    wholeSetting<&IrradianceVolumeSettings::error>("volume-error", 0, 1000,
+                                                   "How far, in thousandths of the light on a caster, the "
+                                                   "bricks of a multi-resolution volume may be off "
+                                                   "the finest grid, whose size --volume-kilobytes gives",
+                                                   true),
+};
+constexpr SettingsOwner kOwners[] = {settingsOwner<IrradianceVolumeSettings>("irradiance-volume", kSettings)};
+
+constexpr Omission kOmissions[] = {
+    {"Light beyond --volume-radius bounding radii of a caster's center, and what fades toward there",
+     hasCaster},
+    {"Shadows in caustics: what stands between a caster and a receiver hides nothing of its light",
+     hasCaster},
+    {"Light from one caster through another, and light that other objects keep from a caster", hasCaster},
+    {"How near a light stands: it falls on a caster as it does on the caster's center, from one direction",
+     hasNearLight},
+    {"Reflection at glass, outside, inside and total, unless --paths all asks for it", hasGlass},
+    omissions::kSpectrum,
+    {"Water and sheets without a volume, which cast no caustics here", hasWaterOrSheet},
+    {"Detail finer than a cell of the volume, and between the light directions it was made for", hasCaster},
+    omissions::kScattering,
+};
+
+void prepare(const Scene& scene, SceneTransport&, const TechniqueSettings& settings, Progress& progress) {
+  keepLightSamples(scene, settings, progress);
+}
+
+bool isMadeAlike(const Material& a, const Material& b) {
+  return a.ior == b.ior && a.color == b.color && a.attenuationColor == b.attenuationColor &&
+         a.attenuationDistance == b.attenuationDistance && a.scattering == b.scattering;
+}
+
+bool isStillPrepared(const PreparedParts& before, const PreparedParts& after, const TechniqueSettings&) {
+  if (!std::ranges::equal(before.materials, after.materials, isMadeAlike)) return false;
+  const bool isTinted = std::ranges::any_of(
+      after.materials, [](const Material& material) { return extinctionOf(material) != vec3(0); });
+  // What absorbs over a meter does so over less where the caster is scaled down.
+  return !isTinted ||
+         std::ranges::equal(before.placements, after.placements, {}, &Placement::scale, &Placement::scale);
+}
+
+void bake(const Scene& scene, const TechniqueSettings& settings, const BakeRequest& request,
+          Progress& progress) {
+  const SceneVolumes all = sceneVolumes(scene, settings);
+  std::vector<IrradianceVolume*> volumes;
+  for (const auto& volume : all.volumes) volumes.push_back(volume.get());
+  if (volumes.empty())
+    throw InputError("'" + request.scene.string() +
+                     "' has no caster, so there is nothing to bake; give an object a material of type "
+                     "'dielectric' or 'mirror'");
+  writeVolumes(volumes, {request.first, request.end}, request.output, progress);
+}
+
+}  // namespace
+
+extern const TechniqueInfo kIrradianceVolume;
+constinit const TechniqueInfo kIrradianceVolume{
+    .name = "irradiance-volume",
+    .summary = "Light around each caster, traced beforehand and looked up (paper 3)",
+    .make = make,
+    .traits = kTraits,
+    .settings = kOwners,
+    .omissions = kOmissions,
+    .prepare = prepare,
+    .isStillPrepared = isStillPrepared,
+    .bake = {"irradiance volumes", bake, mergeVolumes},
+};
 
 }  // namespace nephroid

@@ -1,8 +1,9 @@
-#include "techniques/light_volumes/light_volumes.h"
-
+// Hierarchical light volumes (Barczak and Olano): for each block of pixels the beams that may light it are
+// found down a tree of their bounds, and each pixel asks those.
 #include <algorithm>
 #include <span>
 
+#include "beams/light_beams.h"
 #include "beams/tree.h"
 #include "gpu/command_list.h"
 #include "gpu/program.h"
@@ -10,9 +11,10 @@
 #include "shaders/techniques/light_volumes/beam_on_patch_frag.h"
 #include "shaders/techniques/light_volumes/beam_on_patch_vert.h"
 #include "shaders/techniques/light_volumes/patches_comp.h"
-#include "techniques/light_beams.h"
 #include "techniques/light_volumes/scattered_light.h"
+#include "techniques/light_volumes/settings.h"
 #include "techniques/light_volumes/shader_data.h"
+#include "techniques/technique_info.h"
 
 namespace nephroid {
 namespace {
@@ -51,10 +53,13 @@ class TexelList {
   gpu::Buffer upload;
 };
 
-class LightVolumes final : public Technique {
+constexpr TechniqueTraits kTraits{.usesBeams = true, .coversSquares = true};
+
+class LightVolumes final : public TechniqueBase {
  public:
   explicit LightVolumes(const TechniqueContext& context);
 
+  TechniqueTraits traits() const override { return kTraits; }
   void reserve(uvec2 size) override;
   void update(GpuScene& gpuScene) override;
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
@@ -63,12 +68,13 @@ class LightVolumes final : public Technique {
   void scatter(gpu::CommandList& commands, const WaysOfSight& ways, const gpu::Image& luminance) override {
     scattered.draw(commands, ways, luminance);
   }
-  bool coversSquares() const override { return true; }
   bool finish() override;
 
  private:
   gpu::Device& device;
-  const TechniqueSettings settings;
+  const Paths paths;
+  const BeamDivision division;
+  const LightVolumeSettings settings;
   Stats& stats;
   SceneTransport& transport;
   const Casters casters;
@@ -97,7 +103,9 @@ gpu::RasterState stateOfDraws() {
 
 LightVolumes::LightVolumes(const TechniqueContext& context)
     : device(context.device),
-      settings(context.settings),
+      paths(context.settings.transport.paths),
+      division(context.settings.beams),
+      settings(context.settings.own.of<LightVolumeSettings>()),
       stats(context.stats),
       transport(context.transport),
       casters(context.casters),
@@ -163,8 +171,8 @@ void LightVolumes::update(GpuScene&) {
   std::vector<std::vector<Beam>> portions;
   std::vector<BeamPortion> ofPortions;
   std::vector<uint32_t> objects;  // that portions come from
-  for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths, casters)) {
-    portions.push_back(refinedBeams(scene, source, queries, boxes, settings));
+  for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, paths, casters)) {
+    portions.push_back(refinedBeams(scene, source, queries, boxes, division, settings.detail));
     objects.push_back(queries.front().query.object);
     ofPortions.push_back(portionOf(scene, objects.back(), portions.back()));
   }
@@ -248,10 +256,48 @@ bool LightVolumes::finish() {
   return counted.unfinished == 0 && counted.wanted == 0;
 }
 
-}  // namespace
-
-std::unique_ptr<Technique> makeLightVolumes(const TechniqueContext& context) {
+std::unique_ptr<Technique> make(const TechniqueContext& context) {
   return std::make_unique<LightVolumes>(context);
 }
+
+constexpr Setting kSettings[] = {
+    choiceSetting<&LightVolumeSettings::culling>(
+        "culling", "Find light volumes down their hierarchy, or ask each of them for every block of pixels"),
+    choiceSetting<&LightVolumeSettings::cosine>(
+        "cosine",
+        "The cosine between a light volume and a receiver: each volume's own, or that of the light's mean "
+        "direction, which is right for still water"),
+    realSetting<&LightVolumeSettings::contributionError>(
+        "contribution-error", 0, 1,
+        "The part of the light that may be left out, the weakest light volumes first"),
+    wholeSetting<&LightVolumeSettings::detail>(
+        "volume-detail", 16, 8192,
+        "Texels along each side of the planes about the light on which it is judged whether a light volume "
+        "bends and has to be divided"),
+};
+constexpr SettingsOwner kOwners[] = {settingsOwner<LightVolumeSettings>("light-volumes", kSettings)};
+
+constexpr Omission kOmissions[] = {
+    omissions::kReflection,
+    omissions::kSpectrum,
+    {"Detail between the rays of a caster's vertices; where receivers hide each other from the light, "
+     "that between beams",
+     hasCaster},
+    omissions::kScatteringAside,
+};
+
+}  // namespace
+
+extern const TechniqueInfo kLightVolumes;
+constinit const TechniqueInfo kLightVolumes{
+    .name = "light-volumes",
+    .summary = "Each pixel asks for the beams that it lies in (paper 5): any beams on any receiver",
+    .make = make,
+    .traits = kTraits,
+    .settings = kOwners,
+    .omissions = kOmissions,
+    .prepare = prepareTransport,
+    .isStillPrepared = isTransportStillPrepared,
+};
 
 }  // namespace nephroid

@@ -71,7 +71,7 @@ Arrival arrivalOf(Ray ray, float reach) {
   const float nearest = max(min(toNearest, toFarthest), 0), farthest = max(max(toNearest, toFarthest), 0);
   const vec2 center = set.windows[0].corner + 0.5 * set.windows[0].size / set.windows[0].texelsPerMetre;
   const float middle = set.firstDepth + 0.5 * float(set.planes - 1) * set.depthStep;
-  float distance = abs(ray.direction.z) >= kLeastApproach
+  float distance = abs(ray.direction.z) >= kLeastPlaneApproach
                        ? distanceToDepth(ray, middle)
                        : dot(vec3(center, middle) - ray.start, ray.direction);
   const bool isReachKnown = reach < kUnboundedReach;
@@ -354,8 +354,8 @@ void main() {
   for (int i = 0; i < 3; ++i) rays[i] = rayOf(beam.position[i], beam.direction[i]);
   const vec3 direction = normalize(rays[0].direction + rays[1].direction + rays[2].direction);
   bool isThere = index < constants.beamCount;
-  if (kGoesAlongAxis != 0) isThere = isThere && direction.z >= kLeastApproach;
-  if (kFollowsReceivers == 0) isThere = isThere && abs(direction.z) >= kLeastApproach;
+  if (kGoesAlongAxis != 0) isThere = isThere && direction.z >= kLeastPlaneApproach;
+  if (kFollowsReceivers == 0) isThere = isThere && abs(direction.z) >= kLeastPlaneApproach;
 
   Arrival arrivals[3];
   vec3 depths = vec3(0);  // m along axisW

@@ -6,13 +6,13 @@
 #include <iterator>
 #include <numeric>
 
+#include "beams/light_beams.h"
 #include "gpu/command_list.h"
 #include "shaders/techniques/planes/deposit_comp.h"
 #include "shaders/techniques/planes/receivers_frag.h"
 #include "shaders/techniques/planes/receivers_vert.h"
 #include "shaders/techniques/planes/shade_frag.h"
 #include "shaders/techniques/whole_picture_vert.h"
-#include "techniques/light_beams.h"
 
 namespace nephroid {
 namespace {
@@ -39,12 +39,12 @@ ViewConstants viewOf(const PlaneSet& set, uint32_t window, uint32_t imageSize) {
   return constants;
 }
 
-uint32_t followsReceivers(const TechniqueSettings& settings) {
+uint32_t followsReceivers(const PlaneSettings& settings) {
   return settings.interpolation == Interpolation::surface;
 }
 
 gpu::Program depositProgram(gpu::Device& device, const char* name, uint32_t channels,
-                            const TechniqueSettings& settings, bool goesAlongAxis) {
+                            const PlaneSettings& settings, bool goesAlongAxis) {
   return gpu::createComputeProgram(device, name, shaders::techniques_planes_deposit_comp,
                                    {{"kChannels", channels},
                                     {"kFollowsReceivers", followsReceivers(settings)},
@@ -52,7 +52,7 @@ gpu::Program depositProgram(gpu::Device& device, const char* name, uint32_t chan
 }
 
 gpu::Program shadeProgram(gpu::Device& device, const char* name, uint32_t channels,
-                          const TechniqueSettings& settings) {
+                          const PlaneSettings& settings) {
   return gpu::createRasterProgram(
       device, name, shaders::techniques_whole_picture_vert, shaders::techniques_planes_shade_frag,
       {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
@@ -61,7 +61,7 @@ gpu::Program shadeProgram(gpu::Device& device, const char* name, uint32_t channe
 
 // The directions of a sky, each of which has planes of its own and its share of the light alone, have about
 // as many texels together as a few lights have.
-TechniqueSettings settingsFor(const Scene& scene, TechniqueSettings settings) {
+PlaneSettings settingsFor(const Scene& scene, PlaneSettings settings) {
   constexpr std::size_t kAtFullSize = 4;
   constexpr uint32_t kFewestTexels = 64;
   std::size_t directions = 0;
@@ -102,20 +102,22 @@ std::vector<uint32_t> textureSizes(std::span<const LightPortion> portions, uint3
 
 }  // namespace
 
-PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechniqueTraits& traitsOf)
+PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechniqueKind& kindOf)
     : device(context.device),
-      settings(settingsFor(context.transport.scene(), context.settings)),
-      traits(traitsOf),
+      transportSettings(context.settings.transport),
+      division(context.settings.beams),
+      settings(settingsFor(context.transport.scene(), context.settings.own.of<PlaneSettings>())),
+      kind(kindOf),
       stats(context.stats),
       transport(context.transport),
       casters(context.casters),
       source(transport.source()),
       receiversProgram(
-          gpu::createRasterProgram(device, traits.viewPass, shaders::techniques_planes_receivers_vert,
+          gpu::createRasterProgram(device, kind.viewPass, shaders::techniques_planes_receivers_vert,
                                    shaders::techniques_planes_receivers_frag,
                                    {.colors = {{VK_FORMAT_R32_UINT}}, .depthFormat = VK_FORMAT_D32_SFLOAT})),
-      depositPrograms{depositProgram(device, "deposit", 1, settings, traits.goesAlongAxis),
-                      depositProgram(device, "deposit in color", 3, settings, traits.goesAlongAxis)},
+      depositPrograms{depositProgram(device, "deposit", 1, settings, kind.goesAlongAxis),
+                      depositProgram(device, "deposit in color", 3, settings, kind.goesAlongAxis)},
       shadePrograms{shadeProgram(device, "caustics", 1, settings),
                     shadeProgram(device, "caustics in color", 3, settings)},
       texelSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {}
@@ -123,9 +125,10 @@ PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechn
 std::vector<LightPortion> PlaneTechnique::portionsOfLight(std::span<const ReceiverBox> boxes) const {
   const Scene& scene = transport.scene();
   std::vector<LightPortion> portions;
-  for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, settings.paths, casters)) {
-    std::vector<Beam> all = refinedBeams(scene, source, queries, boxes, settings);
-    if (!traits.goesAlongAxis)
+  for (const std::vector<BandQuery>& queries :
+       lightThroughCasters(transport, transportSettings.paths, casters)) {
+    std::vector<Beam> all = refinedBeams(scene, source, queries, boxes, division, settings.textureSize);
+    if (!kind.goesAlongAxis)
       portions.push_back({vec3(0), std::move(all), 0});
     else
       std::ranges::move(portionsByAxis(std::move(all), boxes), std::back_inserter(portions));
@@ -140,9 +143,7 @@ void PlaneTechnique::update(GpuScene&) {
   lit.clear();
   for (std::size_t i = 0; i < portions.size(); ++i) {
     LitPlanes own{std::move(portions[i]), {}, sizes[i], 3};
-    TechniqueSettings ofPortion = settings;
-    ofPortion.textureSize = own.textureSize;
-    own.planes = traits.plan(transport.scene(), own.light, boxes, ofPortion);
+    own.planes = kind.plan(transport.scene(), own.light, boxes, kind.planes, own.textureSize);
     if (own.planes.planes == 0) continue;
     own.channels = areOfOneColor(own.light.beams) ? 1 : 3;
     lit.push_back(std::move(own));
@@ -186,8 +187,8 @@ std::vector<PassOutput> PlaneTechnique::outputs() const {
   constexpr float kShownUnits = 1e-6f;  // of the flux that is left in a texel
   std::vector<PassOutput> all;
   for (std::size_t set = 0; set < lit.size(); ++set) {
-    all.push_back({traits.viewPass, "depths", &images[set].depths, kShowDepth});
-    all.push_back({traits.texturesPass, "flux", &images[set].textures, kShowLight, kShownUnits});
+    all.push_back({kind.viewPass, "depths", &images[set].depths, kShowDepth});
+    all.push_back({kind.texturesPass, "flux", &images[set].textures, kShowLight, kShownUnits});
   }
   return all;
 }
@@ -243,14 +244,14 @@ void PlaneTechnique::deposit(gpu::CommandList& commands, std::size_t set, VkDevi
 
 void PlaneTechnique::record(gpu::CommandList& commands, GpuScene& gpuScene) {
   if (lit.empty()) return;
-  commands.pass(traits.viewPass, [&] {
+  commands.pass(kind.viewPass, [&] {
     commands.copy(beamUpload, beams, beamBytes);
     for (std::size_t set = 0; set < lit.size(); ++set) {
       commands.clear(images[set].textures, vec4(0));
       drawReceivers(commands, gpuScene, set);
     }
   });
-  commands.pass(traits.texturesPass, [&] {
+  commands.pass(kind.texturesPass, [&] {
     VkDeviceAddress ofBeams = beams.address();
     for (std::size_t set = 0; set < lit.size(); ++set) {
       deposit(commands, set, ofBeams);

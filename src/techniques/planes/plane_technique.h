@@ -5,38 +5,42 @@
 #include <array>
 #include <vector>
 
+#include "beams/plane_plan.h"
 #include "gpu/program.h"
 #include "gpu/resources.h"
-#include "techniques/planes/plan.h"
+#include "techniques/planes/settings.h"
 #include "techniques/planes/shader_data.h"
-#include "techniques/registry.h"
+#include "techniques/technique_info.h"
 #include "transport/queries.h"
 
 namespace nephroid {
 
-struct PlaneTechniqueTraits {
-  // Planes for one portion of the light (lightThroughCasters).
+// How one of them differs from another.
+struct PlaneTechniqueKind {
+  TechniqueTraits traits;
+  // As many planes as are asked for, of `textureSize` texels along each side, for one portion of the light
+  // (lightThroughCasters).
   PlaneSet (*plan)(const Scene& scene, const LightPortion& portion, std::span<const ReceiverBox> boxes,
-                   const TechniqueSettings& settings);
+                   uint32_t planes, uint32_t textureSize);
+  uint32_t planes;
   // The light goes along the planes' axis, give or take, so that the virtual camera sees the receivers that
   // it meets; or else any way, and what it meets may be hidden.
   bool goesAlongAxis;
-  bool followCamera;         // where the planes are depends on where it stands
   const char* viewPass;      // name of the pass that draws what the virtual camera sees
   const char* texturesPass;  // name of the pass that fills the textures
 };
 
-class PlaneTechnique final : public Technique {
+class PlaneTechnique final : public TechniqueBase {
  public:
-  PlaneTechnique(const TechniqueContext& context, const PlaneTechniqueTraits& traits);
+  PlaneTechnique(const TechniqueContext& context, const PlaneTechniqueKind& kind);
 
+  TechniqueTraits traits() const override { return kind.traits; }
   void update(GpuScene& gpuScene) override;
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
   std::vector<Lattice> lattices() const override;
   std::vector<PassOutput> outputs() const override;
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;
-  bool followsCamera() const override { return traits.followCamera; }
 
  private:
   // A portion of the light, and its planes.
@@ -60,8 +64,10 @@ class PlaneTechnique final : public Technique {
   void deposit(gpu::CommandList& commands, std::size_t set, VkDeviceAddress ofBeams);
 
   gpu::Device& device;
-  const TechniqueSettings settings;
-  const PlaneTechniqueTraits traits;
+  const TransportSettings transportSettings;
+  const BeamDivision division;
+  const PlaneSettings settings;
+  const PlaneTechniqueKind kind;
   Stats& stats;
   SceneTransport& transport;
   const Casters casters;

@@ -4,17 +4,11 @@
 
 #include "gpu_scene/scene_data.h"
 
-#include "techniques/planes/plane_set.h"
+#include "beams/plane_set.h"
 #include "transport/outgoing_ray.h"
 
 SHARED_BEGIN
 
-// Units of flux are whole numbers, so that sums do not depend on the order of the beams. All the flux of a
-// set is 2^29 units: there is room for what the cosines add where light crosses the planes obliquely.
-SHARED_CONSTANT float kUnitsOfAllFlux = 536870912.0f;
-// Beams farther than this from the mean direction (as a cosine, 75.5 degrees) run along the planes rather
-// than through them.
-SHARED_CONSTANT float kLeastApproach = 0.25f;
 // A footprint of more texels than this along a side goes to the coarse part where its illuminance is less
 // than this part of the mean over the inner window.
 SHARED_CONSTANT float kWideFootprint = 24.0f;

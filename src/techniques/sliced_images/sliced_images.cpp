@@ -1,10 +1,11 @@
-#include "techniques/sliced_images/sliced_images.h"
-
+// Caustics drawn across the view (Iwasaki, Yoshimoto, Dobashi and Nishita 2005): on sample planes that the
+// camera looks along.
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "techniques/planes/plane_technique.h"
+#include "techniques/sliced_images/settings.h"
 
 namespace nephroid {
 namespace {
@@ -34,14 +35,14 @@ uint32_t automaticSlices(const PlaneSet& pair) {
 }
 
 PlaneSet planSlices(const Scene& scene, const LightPortion& portion, std::span<const ReceiverBox> boxes,
-                    const TechniqueSettings& settings) {
+                    uint32_t slices, uint32_t textureSize) {
   const std::vector<Beam>& beams = portion.beams;
   const std::vector<Arrival> arrivals = findArrivals(beams, boxes);
   const vec3 axis = meanViewingDirection(scene.camera, arrivals);
   const float eye = dot(scene.camera.position, axis), receivers = nearestAlong(axis, boxes);
   // Receivers across the axis lie on this side of where the virtual camera begins to see.
   const float nearest = std::max(eye, receivers - kRoomBeforeReceivers * std::abs(receivers - eye));
-  PlaneOrder order{axis, nearest, settings.slices, settings.textureSize};
+  PlaneOrder order{axis, nearest, slices, textureSize};
   if (order.planes > 0) return planPlanes(order, beams, arrivals);
   order.planes = 2;
   const PlaneSet pair = planPlanes(order, beams, arrivals);
@@ -50,11 +51,46 @@ PlaneSet planSlices(const Scene& scene, const LightPortion& portion, std::span<c
   return planPlanes(order, beams, arrivals);
 }
 
+constexpr TechniqueTraits kTraits{.followsCamera = true, .usesBeams = true};
+
+constexpr Setting kSettings[] = {
+    wholeSetting<&SlicedImageSettings::slices>("slices", 0, 256,
+                                               "Sample planes across the view that caustics are drawn on; 0: "
+                                               "as many as the receivers' depth asks for"),
+};
+constexpr SettingsOwner kOwners[] = {settingsOwner<SlicedImageSettings>("sliced-images", kSettings),
+                                     kPlaneSettingsOwner};
+
+constexpr Omission kOmissions[] = {
+    omissions::kReflection,
+    omissions::kSpectrum,
+    {"Light that the camera does not see along the mean direction in which it sees the light: on surfaces "
+     "that another receiver hides there or that face away, as glass and mirrors may show them",
+     hasCaster},
+    {"With --interpolation blend, light that runs within 15 degrees along the sample planes", hasCaster},
+    omissions::kPlaneDetail,
+    omissions::kScattering,
+};
+
+std::unique_ptr<Technique> make(const TechniqueContext& context) {
+  const uint32_t slices = context.settings.own.of<SlicedImageSettings>().slices;
+  return std::make_unique<PlaneTechnique>(
+      context,
+      PlaneTechniqueKind{kTraits, planSlices, slices, false, "receivers across the view", "caustics maps"});
+}
+
 }  // namespace
 
-std::unique_ptr<Technique> makeSlicedImages(const TechniqueContext& context) {
-  return std::make_unique<PlaneTechnique>(
-      context, PlaneTechniqueTraits{planSlices, false, true, "receivers across the view", "caustics maps"});
-}
+extern const TechniqueInfo kSlicedImages;
+constinit const TechniqueInfo kSlicedImages{
+    .name = "sliced-images",
+    .summary = "Maps of caustics on sample planes across the view (paper 1)",
+    .make = make,
+    .traits = kTraits,
+    .settings = kOwners,
+    .omissions = kOmissions,
+    .prepare = prepareTransport,
+    .isStillPrepared = isTransportStillPrepared,
+};
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-#include "techniques/sources.h"
+#include "transport/scene_transport.h"
 
 #include <algorithm>
 #include <optional>
@@ -47,27 +47,26 @@ std::vector<TransportTable> makePlanned(const Scene& scene, const TablePlan& pla
 
 }  // namespace
 
-std::vector<TransportTable> makeTables(const Scene& scene, const TechniqueSettings& settings,
+std::vector<TransportTable> makeTables(const Scene& scene, const TransportSettings& settings,
                                        Progress& progress) {
   const TableSettings tableSettings{settings.directions};
   return makePlanned(scene, planTables(scene, tableSettings), tableSettings, progress);
 }
 
-std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const TechniqueSettings& settings,
+std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const TransportSettings& settings,
                                                  const TracedSource& traced, Progress& progress) {
   const TableSettings tableSettings{settings.directions};
   const TablePlan plan = planTables(scene, tableSettings);
-  // A file of irradiance volumes holds no tables.
-  const bool isBaked = !settings.baked.empty() && settings.technique != "irradiance-volume";
-  const std::vector<TransportTable> tables =
-      !isBaked ? makePlanned(scene, plan, tableSettings, progress) : openTables(settings.baked, plan.keys);
+  const std::vector<TransportTable> tables = settings.baked.empty()
+                                                 ? makePlanned(scene, plan, tableSettings, progress)
+                                                 : openTables(settings.baked, plan.keys);
   std::vector<std::optional<TransportTable>> ofObject(scene.objects.size());
   for (std::size_t i = 0; i < ofObject.size(); ++i)
     if (plan.ofObject[i]) ofObject[i] = tables[*plan.ofObject[i]];
   return std::make_unique<TableSource>(scene, std::move(ofObject), traced);
 }
 
-SceneTransport::SceneTransport(const Scene& scene, const TechniqueSettings& settingsToUse,
+SceneTransport::SceneTransport(const Scene& scene, const TransportSettings& settingsToUse,
                                Progress& progressToShow, SourceMaker maker)
     : settings(settingsToUse),
       progress(progressToShow),

@@ -1,12 +1,12 @@
-// Where virtual planes stand.
+// Portions of the light of one lamp through one caster, and where they arrive.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "beams/beam.h"
 #include "geometry/box.h"
 #include "scene/scene.h"
-#include "techniques/planes/plane_set.h"
 
 namespace nephroid {
 
@@ -41,21 +41,5 @@ struct LightPortion {
 // Portions of light that planes across an axis each can hold: all of it, across its mean; or, where too much
 // arrives aside of that, what goes the way that most of it arrives, and the rest by octants of the world.
 std::vector<LightPortion> portionsByAxis(std::vector<Beam> beams, std::span<const ReceiverBox> boxes);
-
-// How planes stand, and how far along their axis the virtual camera begins to see.
-struct PlaneOrder {
-  vec3 axis{0};  // unit
-  float nearestDepth = 0;
-  uint32_t planes = 1;
-  uint32_t textureSize = 512;
-};
-
-// From the nearest to the farthest arrival, with windows about all of them. One plane where all arrive at one
-// depth; of no planes without arrivals.
-PlaneSet planPlanes(const PlaneOrder& order, std::span<const Beam> beams, std::span<const Arrival> arrivals);
-
-// Planes across the portion's axis (Iwasaki 2005b, 4.2: the mean direction of the light).
-PlaneSet planAlongLight(const LightPortion& portion, std::span<const ReceiverBox> boxes, uint32_t planes,
-                        uint32_t textureSize);
 
 }  // namespace nephroid

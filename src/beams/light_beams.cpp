@@ -1,7 +1,8 @@
-#include "techniques/light_beams.h"
+#include "beams/light_beams.h"
 
 #include <algorithm>
 
+#include "beams/plane_plan.h"
 #include "geometry/bounds.h"
 #include "lights/emitters.h"
 
@@ -90,27 +91,27 @@ std::vector<Beam> beamsOf(const Scene& scene, const TransportSource& source,
 
 std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source,
                                std::span<const BandQuery> queries, std::span<const ReceiverBox> boxes,
-                               const TechniqueSettings& settings) {
+                               const BeamDivision& division, uint32_t detail) {
   BeamSettings refined{.refineDepth = 0, .targets = {}};
   const TransportQuery& query = queries.front().query;
   const Object& object = scene.objects[query.object];
   const bool isWater = object.water.has_value();
   // Water's cells are as fine as its waves, and a facet does not bend: their rays part, where they do at all.
   const bool isEven = isWater || scene.meshOf(object).isFaceted();
-  if (isEven) refined.refineDepth = settings.refineDepth;
-  if (isWater) refined.shadowTolerance = settings.shadowTolerance;
+  if (isEven) refined.refineDepth = division.refineDepth;
+  if (isWater) refined.shadowTolerance = division.shadowTolerance;
   std::vector<Beam> beams = beamsOf(scene, source, queries, refined);
   const bool isDone = isEven && !hasOtherCasters(scene, object);
-  if (isDone || !source.refines(query) || settings.refineDepth == 0) return beams;
+  if (isDone || !source.refines(query) || division.refineDepth == 0) return beams;
   const std::vector<LightPortion> portions = portionsByAxis(std::move(beams), boxes);
   for (const LightPortion& portion : portions) {
-    const PlaneSet along = planAlongLight(portion, boxes, 2, settings.textureSize);
+    const PlaneSet along = planAlongLight(portion, boxes, 2, detail);
     if (along.planes == 0) continue;
     refined.targets.push_back({planeGrid(along, 0, 0), portion.leastApproach});
     refined.targets.push_back({planeGrid(along, along.planes - 1, 0), portion.leastApproach});
   }
   if (refined.targets.empty()) return joined(portions);
-  refined.refineDepth = settings.refineDepth + (isWater ? kCutsBeyondWaves : 0);
+  refined.refineDepth = division.refineDepth + (isWater ? kCutsBeyondWaves : 0);
   refined.refineTolerance = 0.25f;
   refined.isEvenAtSurface = isWater;
   return beamsOf(scene, source, queries, refined);

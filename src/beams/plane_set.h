@@ -4,14 +4,20 @@
 // Planes stand across the mean direction of the light, `axisW`, at equal distances. Each holds a texture of
 // illuminance, and all share a virtual camera that looks along axisW. A texture has two windows: an inner one
 // about where most of the flux arrives, and an outer one, of a quarter of its texels, about where any does.
-#ifndef NEPHROID_TECHNIQUES_PLANES_PLANE_SET_H
-#define NEPHROID_TECHNIQUES_PLANES_PLANE_SET_H
+#ifndef NEPHROID_BEAMS_PLANE_SET_H
+#define NEPHROID_BEAMS_PLANE_SET_H
 
 #include "beams/footprint.h"
 
 SHARED_BEGIN
 
 SHARED_CONSTANT uint kWindows = 2u;
+// Units of flux are whole numbers, so that sums do not depend on the order of the beams. All the flux of a
+// set is 2^29 units: there is room for what the cosines add where light crosses the planes obliquely.
+SHARED_CONSTANT float kUnitsOfAllFlux = 536870912.0f;
+// Beams farther than this from the mean direction (as a cosine, 75.5 degrees) run along the planes rather
+// than through them.
+SHARED_CONSTANT float kLeastPlaneApproach = 0.25f;
 
 // A square of the virtual camera's view, in metres along axisU and axisV.
 struct Window {

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "beams/build.h"
-#include "techniques/planes/plan.h"
-#include "techniques/sources.h"
+#include "beams/portions.h"
+#include "beams/settings.h"
 #include "transport/queries.h"
+#include "transport/scene_transport.h"
 
 namespace nephroid {
 
@@ -25,10 +26,11 @@ std::vector<Beam> beamsOf(const Scene& scene, const TransportSource& source,
                           std::span<const BandQuery> queries, const BeamSettings& settings);
 
 // The beams of one portion, of triangles cut where the light within them parts or bends on its way to the
-// receivers in `boxes`.
+// receivers in `boxes`. Where beams bend is judged on planes about where the light arrives, of `detail`
+// texels along each side.
 std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source,
                                std::span<const BandQuery> queries, std::span<const ReceiverBox> boxes,
-                               const TechniqueSettings& settings);
+                               const BeamDivision& division, uint32_t detail);
 
 // Takes the weakest beams of all portions out, which carry no more than `part` of the flux between them.
 void leaveOutWeakest(std::vector<std::vector<Beam>>& portions, double part);

@@ -1,15 +1,14 @@
-// Caustics looked up in a volume that was made for each caster beforehand: Wyman, Hansen and Shirley 2004,
-// "Interactive Caustics Using Local Precomputed Irradiance".
+// The irradiance volumes of a scene's casters.
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "irradiance_volume/volume.h"
-#include "techniques/registry.h"
+#include "techniques/irradiance_volume/settings.h"
+#include "techniques/settings.h"
 
 namespace nephroid {
-
-std::unique_ptr<Technique> makeIrradianceVolumes(const TechniqueContext& context);
 
 // The volumes of a scene's casters and which of them each object uses; none where an object casts no caustic
 // of its own. Casters alike in mesh, material and scale where they absorb share theirs.

@@ -1,0 +1,51 @@
+#include "reference/settings.h"
+
+#include <limits>
+
+namespace nephroid {
+namespace {
+
+constexpr uint32_t kDefaultPasses = 64;
+constexpr double kMostPhotons = 1u << 24;
+constexpr double kLargestWhole = 9007199254740992.0;  // up to which doubles hold every whole number
+
+}  // namespace
+
+std::span<const Setting> referenceSettings() {
+  using Choices = ReferenceChoices;
+  static constexpr Setting kSettings[] = {
+      wholeSetting<&Choices::passes>(
+          "passes", 1, 1e9, "Stop the reference after so many passes; 64 where no reason to stop is given"),
+      realSetting<&Choices::seconds>("seconds", 0.001, 1e9, "Stop it after so many seconds"),
+      fractionSetting<&Choices::error>("error", std::numeric_limits<double>::infinity(),
+                                       "Stop it when the standard error of the caustics, over their value "
+                                       "where they are, is this: 0.01 or 1%"),
+      wholeSetting<&Choices::seed>("seed", 0, kLargestWhole, "Where its random numbers begin"),
+      wholeSetting<&Choices::photons>("photons", 1, kMostPhotons, "Photons that it traces in a pass"),
+      choiceSetting<&Choices::spectrum>(
+          "spectrum",
+          "Dispersion in the reference: red, green and blue with an index each, or wavelengths; automatic: "
+          "channels with --paths transmission, as the techniques, and otherwise continuous"),
+  };
+  return kSettings;
+}
+
+ReferenceSettings referenceSettingsOf(const ReferenceChoices& choices, Paths paths, uvec2 size) {
+  ReferenceSettings settings;
+  settings.size = size;
+  settings.paths = paths;
+  const bool hasChannels = choices.spectrum == SpectrumChoice::channels ||
+                           (choices.spectrum == SpectrumChoice::automatic && paths == Paths::transmission);
+  settings.spectrum = hasChannels ? Spectrum::channels : Spectrum::continuous;
+  settings.seed = choices.seed;
+  settings.photons = choices.photons;
+  return settings;
+}
+
+StopRule stopRuleOf(const ReferenceChoices& choices) {
+  StopRule rule{choices.passes, choices.seconds, choices.error};
+  if (rule.passes == 0 && rule.seconds <= 0 && rule.error <= 0) rule.passes = kDefaultPasses;
+  return rule;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,55 @@
+#include "render/omissions.h"
+
+#include <algorithm>
+
+namespace nephroid {
+namespace {
+
+bool hasExtendedLight(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return light.type == LightType::line || light.type == LightType::area || light.type == LightType::sky;
+  });
+}
+
+bool hasSky(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const Light& light) { return light.type == LightType::sky; });
+}
+
+bool hasMediumAndCaster(const Scene& scene) {
+  return scene.medium.has_value() && hasCaster(scene);
+}
+
+bool hasLightAndReceiver(const Scene& scene) {
+  return !scene.lights.empty() &&
+         anyMaterial(scene, [](const Material& material) { return !material.isCaster(); });
+}
+
+bool always(const Scene&) {
+  return true;
+}
+
+}  // namespace
+
+std::span<const Omission> omissionsOfFrame() {
+  static constexpr Omission kOmissions[] = {
+      {"In the view of glass: other casters in what its outside reflects, and what is reflected inside where "
+       "it could have left",
+       hasGlass},
+      {"The air, where light met a caster: what it scatters of that light and takes of it; and what it "
+       "scatters "
+       "behind glass and in mirrors, and takes of what is seen there",
+       hasMediumAndCaster},
+      {"The extent of lights: a line is a row of points, an area a grid of them and a sky a number of "
+       "directions, in light, shadows and caustics",
+       hasExtendedLight},
+      {"The sky itself: where nothing stands, and in glass and mirrors, the background is seen", hasSky},
+      {"Shadow edges finer than two texels of a shadow map; there are as many texels as pixels along the "
+       "picture's longer side, divided by the square root of how many points or directions a light is",
+       hasLightAndReceiver},
+      {"Smooth edges: a pixel shows what its center sees, not the mean over its square", always},
+  };
+  return kOmissions;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,31 @@
+// Several techniques as one, each with casters of its own.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "techniques/technique.h"
+
+namespace nephroid {
+
+class CompositeTechnique final : public Technique {
+ public:
+  explicit CompositeTechnique(std::vector<std::unique_ptr<Technique>> parts);
+
+  // A trait that asks for more work is there where any part has it; one that saves work, where all have it.
+  TechniqueTraits traits() const override;
+  void reserve(uvec2 size) override;
+  void update(GpuScene& gpuScene) override;
+  void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
+  std::vector<Lattice> lattices() const override;
+  std::vector<PassOutput> outputs() const override;
+  bool finish() override;
+  void shade(gpu::CommandList& commands, const ReceiverPoints& points,
+             const gpu::Image& causticsLux) override;
+  void scatter(gpu::CommandList& commands, const WaysOfSight& ways, const gpu::Image& luminance) override;
+
+ private:
+  std::vector<std::unique_ptr<Technique>> parts_;
+};
+
+}  // namespace nephroid

@@ -1,0 +1,30 @@
+// How light is followed through casters.
+#pragma once
+
+#include <array>
+#include <filesystem>
+
+#include "core/settings.h"
+#include "trace/paths.h"
+
+namespace nephroid {
+
+enum class Source { table, traced };
+
+inline constexpr std::array<const char*, 2> kSourceNames{"table", "traced"};
+constexpr const auto& namesOf(Source) {
+  return kSourceNames;
+}
+
+struct TransportSettings {
+  Source source = Source::table;
+  Paths paths = Paths::transmission;
+  uint32_t directions = 129;    // for each vertex of a light transport table
+  std::filesystem::path baked;  // the tables to use; empty: found in the cache, or made
+  bool operator==(const TransportSettings&) const = default;
+};
+
+// All but `baked`, which is the user's choice among files.
+std::span<const Setting> transportSettings();
+
+}  // namespace nephroid
