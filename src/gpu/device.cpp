@@ -37,6 +37,8 @@ struct Features {
         {"dynamicRendering", &v13.dynamicRendering},
         {"synchronization2", &v13.synchronization2},
         {"maintenance4", &v13.maintenance4},
+        {"subgroupSizeControl", &v13.subgroupSizeControl},
+        {"computeFullSubgroups", &v13.computeFullSubgroups},
         {"scalarBlockLayout", &v12.scalarBlockLayout},
         {"bufferDeviceAddress", &v12.bufferDeviceAddress},
         {"independentBlend", &all.features.independentBlend},
@@ -46,6 +48,8 @@ struct Features {
     });
   }
 };
+
+constexpr uint32_t kLeastSubgroup = 4, kMostSubgroup = 64;  // threads, that the programs are written for
 
 std::string versionText(uint32_t version) {
   return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) +
@@ -90,15 +94,31 @@ std::optional<uint32_t> findQueueFamily(VkPhysicalDevice device, uint32_t* times
   return std::nullopt;
 }
 
-bool canShuffleInSubgroups(VkPhysicalDevice device) {
+// What compute shaders can do with subgroups.
+struct Subgroups {
+  bool canShuffle = false;      // and ballot
+  uint32_t usual = 0;           // threads, where the driver chooses
+  std::vector<uint32_t> sizes;  // threads that can be asked for, of those the programs are written for
+};
+
+Subgroups subgroupsOf(VkPhysicalDevice device) {
+  auto sizes = structure<VkPhysicalDeviceSubgroupSizeControlProperties>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES);
   auto subgroups =
       structure<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
+  subgroups.pNext = &sizes;
   auto properties = structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
   properties.pNext = &subgroups;
   vkGetPhysicalDeviceProperties2(device, &properties);
   constexpr VkSubgroupFeatureFlags kWanted = VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
-  return (subgroups.supportedOperations & kWanted) == kWanted &&
-         (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  Subgroups found;
+  found.canShuffle = (subgroups.supportedOperations & kWanted) == kWanted &&
+                     (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  found.usual = subgroups.subgroupSize;
+  if ((sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0)
+    for (uint32_t size = kLeastSubgroup; size <= kMostSubgroup; size *= 2)
+      if (size >= sizes.minSubgroupSize && size <= sizes.maxSubgroupSize) found.sizes.push_back(size);
+  return found;
 }
 
 std::vector<std::string> missingFrom(VkPhysicalDevice device, uint32_t apiVersion) {
@@ -110,8 +130,10 @@ std::vector<std::string> missingFrom(VkPhysicalDevice device, uint32_t apiVersio
     if (!*value) missing.emplace_back(name);
   if (!hasDeviceExtension(device, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME))
     missing.emplace_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
-  if (!canShuffleInSubgroups(device))
-    missing.emplace_back("ballots and shuffles in subgroups of compute shaders");
+  const Subgroups subgroups = subgroupsOf(device);
+  if (!subgroups.canShuffle) missing.emplace_back("ballots and shuffles in subgroups of compute shaders");
+  if (subgroups.sizes.empty())
+    missing.emplace_back("compute shaders with subgroups of 4 to 64 threads, as asked for");
   uint32_t timestampBits = 0;
   if (!findQueueFamily(device, &timestampBits)) missing.emplace_back("a queue for graphics and compute");
   return missing;
@@ -133,6 +155,7 @@ DeviceInfo describe(VkPhysicalDevice device, uint32_t index) {
     vkGetPhysicalDeviceProperties2(device, &more);
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
   }
+  if (properties.apiVersion >= VK_API_VERSION_1_3) info.subgroupSizes = subgroupsOf(device).sizes;
   info.missing = missingFrom(device, properties.apiVersion);
   return info;
 }
@@ -174,6 +197,17 @@ const DeviceInfo& chosenByItself(const std::vector<DeviceInfo>& infos) {
   return infos.front();
 }
 
+// The size (threads) that is wanted, or of those offered the one that is nearest to what the driver itself
+// would choose.
+uint32_t chosenSubgroupSize(VkPhysicalDevice device, const DeviceInfo& info, uint32_t wanted) {
+  const std::vector<uint32_t>& offered = info.subgroupSizes;
+  if (wanted == 0) return std::clamp(subgroupsOf(device).usual, offered.front(), offered.back());
+  if (std::ranges::find(offered, wanted) == offered.end())
+    throw InputError("the Vulkan device \"" + info.name + "\" offers no subgroups of " +
+                     std::to_string(wanted) + " threads");
+  return wanted;
+}
+
 bool validationWanted(const DeviceOptions& options) {
   const char* environment = std::getenv("NEPHROID_VALIDATION");
   return options.validation || (environment && std::strcmp(environment, "1") == 0);
@@ -199,6 +233,7 @@ Device::Device(const DeviceOptions& options)
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physicalDevice_, &properties);
   limits_ = properties.limits;
+  subgroupSize_ = chosenSubgroupSize(physicalDevice_, info_, options.subgroupSize);
   const bool showsPictures = !options.surfaceExtensions.empty();
   if (showsPictures && !hasDeviceExtension(physicalDevice_, VK_KHR_SWAPCHAIN_EXTENSION_NAME))
     throw RuntimeFailure("the Vulkan device \"" + info_.name + "\" cannot show pictures in a window");

@@ -22,14 +22,17 @@ struct DeviceOptions {
                             // turns it on too
   // What a window system needs of the instance; not empty: the device can show pictures (Swapchain).
   std::vector<std::string> surfaceExtensions{};
+  uint32_t subgroupSize = 0;  // one of DeviceInfo::subgroupSizes; 0: the device's own choice
 };
 
 struct DeviceInfo {
   uint32_t index = 0;
   std::string name;
-  std::string type;                  // "discrete", "integrated", "virtual", "software" or "other"
-  std::string driver;                // name and version
-  std::string apiVersion;            // "1.3.230"
+  std::string type;        // "discrete", "integrated", "virtual", "software" or "other"
+  std::string driver;      // name and version
+  std::string apiVersion;  // "1.3.230"
+  // Threads that a subgroup of a compute shader can be asked to have, of 4 to 64, ascending.
+  std::vector<uint32_t> subgroupSizes;
   std::vector<std::string> missing;  // what it would need to be usable; empty when it is usable
 };
 
@@ -55,6 +58,8 @@ class Device {
   VkPhysicalDevice physicalDevice() const { return physicalDevice_; }
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  // Threads of a compute group that is one subgroup.
+  uint32_t subgroupSize() const { return subgroupSize_; }
   MemoryPool& memory() { return *memory_; }
   uint64_t memoryBytes() const { return memory_->usedBytes(); }  // in buffers and images now
 
@@ -73,6 +78,7 @@ class Device {
   VkPhysicalDevice physicalDevice_ = VK_NULL_HANDLE;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};
+  uint32_t subgroupSize_ = 0;
   uint32_t queueFamily_ = 0;
   uint32_t timestampBits_ = 0;
   VkDevice handle_ = VK_NULL_HANDLE;

@@ -39,27 +39,34 @@ class ShaderModule {
   VkShaderModule handle_ = VK_NULL_HANDLE;
 };
 
-// The constants given that a shader has, by the numbers it gives them.
+// Values of a shader's specialization constants; of `groupSize` (threads) that of the one which is its
+// group's size.
 class Specialization {
  public:
-  Specialization(const Reflection& shader, const std::vector<SpecializationConstant>& constants) {
-    for (std::size_t i = 0; i < constants.size(); ++i) {
-      const auto found = std::ranges::find(shader.constants, constants[i].name, &ReflectedConstant::name);
-      if (found == shader.constants.end()) continue;
-      const std::size_t offset = i * sizeof(SpecializationConstant) + offsetof(SpecializationConstant, value);
-      entries_.push_back({found->id, static_cast<uint32_t>(offset), sizeof(uint32_t)});
+  Specialization(const Reflection& shader, const std::vector<SpecializationConstant>& constants,
+                 uint32_t groupSize = 0) {
+    for (const SpecializationConstant& constant : constants) {
+      const auto found = std::ranges::find(shader.constants, constant.name, &ReflectedConstant::name);
+      if (found != shader.constants.end()) add(found->id, constant.value);
     }
+    if (shader.subgroupSizeId) add(*shader.subgroupSizeId, groupSize);
     info_.mapEntryCount = static_cast<uint32_t>(entries_.size());
     info_.pMapEntries = entries_.data();
-    info_.dataSize = constants.size() * sizeof(SpecializationConstant);
-    info_.pData = constants.data();
+    info_.dataSize = values_.size() * sizeof(uint32_t);
+    info_.pData = values_.data();
   }
   Specialization(const Specialization&) = delete;
   Specialization& operator=(const Specialization&) = delete;
   const VkSpecializationInfo& info() const { return info_; }
 
  private:
+  void add(uint32_t id, uint32_t value) {
+    entries_.push_back({id, static_cast<uint32_t>(values_.size() * sizeof(uint32_t)), sizeof(uint32_t)});
+    values_.push_back(value);
+  }
+
   std::vector<VkSpecializationMapEntry> entries_;
+  std::vector<uint32_t> values_;
   VkSpecializationInfo info_{};
 };
 
@@ -231,10 +238,19 @@ Program createComputeProgram(Device& device, const std::string& name, std::span<
   program.add(shader);
   expectKnown(program, constants);
   program.createLayout();
+  auto size = structure<VkPipelineShaderStageRequiredSubgroupSizeCreateInfo>(
+      VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO);
+  size.requiredSubgroupSize = device.subgroupSize();
+  const std::optional<uint32_t> sizeId = shader.reflection.subgroupSizeId;
+  if (sizeId) program.reflection_.localSize[0] = device.subgroupSize();
   const ShaderModule module(device.handle(), shader.spirv, name);
-  const Specialization specialization(shader.reflection, constants);
+  const Specialization specialization(shader.reflection, constants, device.subgroupSize());
   auto info = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
   info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, specialization.info());
+  if (sizeId) {
+    info.stage.pNext = &size;
+    info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+  }
   info.layout = program.layout_;
   check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &program.pipeline_),
         "making program " + name);

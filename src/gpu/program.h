@@ -84,6 +84,11 @@ class Program {
 
 // Programs. Both throw std::logic_error for a constant that no shader has, and for an image that two shaders
 // declare differently.
+//
+// A shader with `layout(local_size_x_id = N) in` has groups of one full subgroup of Device::subgroupSize
+// threads: N is set here. Shaders whose subgroups go their own way need that: SPIR-V promises that threads
+// come together again after a branch only for groups that went in as a whole, and some drivers let
+// subgroupBarrier wait for the whole group.
 Program createComputeProgram(Device& device, const std::string& name, std::span<const uint32_t> spirv,
                              const std::vector<SpecializationConstant>& constants = {});
 

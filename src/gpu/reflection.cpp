@@ -82,6 +82,9 @@ Reflection reflect(const std::string& name, std::span<const uint32_t> spirv) {
   for (unsigned axis = 0; axis < 3; ++axis)
     reflection.localSize[axis] = std::max(
         1u, spvc_compiler_get_execution_mode_argument_by_index(compiler, SpvExecutionModeLocalSize, axis));
+  spvc_specialization_constant x{}, y{}, z{};
+  spvc_compiler_get_work_group_size_specialization_constants(compiler, &x, &y, &z);
+  if (x.id != 0) reflection.subgroupSizeId = x.constant_id;
   for (const spvc_resource_type type : kUnsupported)
     if (!listOf(resources, type).empty()) throw fail("only images are bound; buffers are passed by address");
   for (const Kind& kind : kImageKinds)

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,8 @@ struct ReflectedConstant {
 struct Reflection {
   uint32_t pushConstantBytes = 0;
   std::array<uint32_t, 3> localSize{1, 1, 1};  // threads of a compute group
+  // The constant_id that `local_size_x_id` names, where it does: a group is then one subgroup.
+  std::optional<uint32_t> subgroupSizeId;
   std::vector<ReflectedBinding> bindings;
   std::vector<ReflectedConstant> constants;
 };

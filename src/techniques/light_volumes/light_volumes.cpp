@@ -221,8 +221,7 @@ void LightVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& point
     for (const uint32_t root : rootsBelow(tree, levelOfRoots)) {
       listing.root = root;
       commands.barrier();
-      commands.dispatch(patches, {(tiles.x + kTilesInGroup - 1) / kTilesInGroup * kThreads, tiles.y, 1},
-                        listing,
+      commands.dispatch(patches, {tiles.x * device.subgroupSize(), tiles.y, 1}, listing,
                         {{"receiverPosition", *points.position},
                          {"receiverNormal", *points.normal},
                          {"axesU", axesU},

@@ -2,10 +2,10 @@
 // squares of pixels to draw (Barczak and Olano, 3.3: culling by the view and clamping to receivers in one,
 // against what is really seen).
 //
-// A subgroup has a tile, and takes it in patches: pixels that show nearly one plane, where a beam's footprint
-// on that plane tells which pixels it may light. The order of one tile's draws is always the same, which
-// alone matters. A software device passes at least once through each loop, and through all that stands under
-// a condition: so loops follow each other and are not nested.
+// A group, which is one subgroup, has a tile, and takes it in patches: pixels that show nearly one plane,
+// where a beam's footprint on that plane tells which pixels it may light. The order of one tile's draws is
+// always the same, which alone matters. A software device passes at least once through each loop, and through
+// all that stands under a condition: so loops follow each other and are not nested.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -17,7 +17,7 @@
 #include "techniques/light_volumes/receiver_square.glsl.h"
 
 layout(constant_id = 0) const uint kIsFlat = 0;  // every beam is asked for, without the hierarchy
-layout(local_size_x = kThreads) in;
+layout(local_size_x_id = 1) in;
 layout(push_constant, scalar) uniform Constants {
   PatchConstants constants;
 };
@@ -30,8 +30,8 @@ uniform utexture2D beamTexels;
 
 // For each thread: groups of bounds that wait to be asked, and beams that wait to be drawn.
 const uint kGroupsAThread = 32, kBeamsAThread = 32;
-shared uint groups[kThreads * kGroupsAThread];
-shared uint beams[kThreads * kBeamsAThread];
+shared uint groups[gl_WorkGroupSize.x * kGroupsAThread];
+shared uint beams[gl_WorkGroupSize.x * kBeamsAThread];
 
 // What pixels of one patch may differ in.
 const float kMostHeight = 1;     // pixels, off the plane
@@ -43,10 +43,15 @@ float finestStep(vec3 point) {
   return 1e-6 * max(max(size.x, size.y), size.z);
 }
 
+// What a pixel shows; past the image's edge what the last one shows.
+vec4 receiverAt(ivec2 at) {
+  return imageLoad(receiverPosition, clamp(at, ivec2(0), imageSize(receiverPosition) - 1));
+}
+
 // m from one pixel to the next on the tangent plane; of its two neighbours the one that lies nearer to it.
-// None where a caster shows both of them what it shows the pixel.
+// None where a caster shows both of them what it shows the pixel, and for a neighbour past the image's edge.
 vec3 stepAlong(ivec2 at, ivec2 along, vec3 point, vec3 normal) {
-  const vec4 next = imageLoad(receiverPosition, at + along), last = imageLoad(receiverPosition, at - along);
+  const vec4 next = receiverAt(at + along), last = receiverAt(at - along);
   const vec3 forward = next.xyz - point, backward = point - last.xyz;
   const vec3 onward = forward - normal * dot(forward, normal),
              back = backward - normal * dot(backward, normal);
@@ -117,7 +122,7 @@ bool isWithinBeams(ivec2 tile) {
   vec4 low = vec4(1e30), high = vec4(-1e30);
   const uint width = kTileSize + 2;
   for (uint pixel = thread(); pixel < width * width; pixel += gl_SubgroupSize) {
-    const vec4 point = imageLoad(receiverPosition, tile + ivec2(pixel % width, pixel / width) - 1);
+    const vec4 point = receiverAt(tile + ivec2(pixel % width, pixel / width) - 1);
     if (point.w == 0) continue;
     low = min(low, point);
     high = max(high, point);
@@ -148,9 +153,19 @@ uint storeSquares(ivec2 tile, uint pixels) {
   return there;
 }
 
+// One that this thread stored.
 ReceiverSquare loadSquare(ivec2 place) {
   return squareFromTexels(imageLoad(receiverPosition, place).xyz, imageLoad(axesU, place),
                           imageLoad(axesV, place));
+}
+
+// One that the thread `from` stored.
+ReceiverSquare loadSquareOf(uint from, ivec2 place) {
+  ReceiverSquare square;
+  if (thread() == from) square = loadSquare(place);
+  return ReceiverSquare(subgroupShuffle(square.point, from), subgroupShuffle(square.normal, from),
+                        subgroupShuffle(square.axisU, from), subgroupShuffle(square.axisV, from),
+                        subgroupShuffle(square.inverseArea, from));
 }
 
 // The boxes that what the four blocks of a tile show fills on a patch's plane, in pixels from the patch's
@@ -175,22 +190,22 @@ Blocks blocksBetween(vec4 lowX, vec4 lowY, vec4 highX, vec4 highY) {
                 0.5 * (highY - lowY) + rounding);
 }
 
-// Takes from `waiting` the pixels that lie well with the square at `chosen`, and names them.
-Patch takePatch(ivec2 tile, ivec2 chosen, bool isLast, float id, inout uint waiting) {
-  const ReceiverSquare plane = loadSquare(tile + chosen);
+// Takes from `waiting` the pixels that lie well with the square `plane`, and names them.
+Patch takePatch(ivec2 tile, ReceiverSquare plane, bool isLast, float id, inout uint waiting) {
   const float pixelsPerMetre = sqrt(abs(plane.inverseArea));
   vec4 low = vec4(1e30), high = vec4(-1e30);  // a: m off the plane
   vec4 lowX = vec4(1e30), lowY = vec4(1e30), highX = vec4(-1e30), highY = vec4(-1e30);
   float spread = 0;
   uint bit = 1;
   for (uint pixel = thread(); pixel < kTilePixels; pixel += gl_SubgroupSize, bit <<= 1) {
+    if ((waiting & bit) == 0) continue;
     const ivec2 at = placeInTile(pixel);
     const ReceiverSquare square = loadSquare(tile + at);
     const vec3 offset = square.point - plane.point;
     const vec2 onPlane = vec2(dot(offset, plane.axisU), dot(offset, plane.axisV));
     const float height = dot(offset, plane.normal);
-    const bool fits = (waiting & bit) != 0 && (isLast || (abs(height) * pixelsPerMetre <= kMostHeight &&
-                                                          dot(square.normal, plane.normal) >= kLeastCosine));
+    const bool fits = isLast || (abs(height) * pixelsPerMetre <= kMostHeight &&
+                                 dot(square.normal, plane.normal) >= kLeastCosine);
     if (!fits) continue;
     waiting &= ~bit;
     imageStore(axesV, tile + at, axisVTexel(square, id));
@@ -289,12 +304,9 @@ void list(uint index, bool isThere, ivec2 tile, uint id, Patch shown) {
 // Takes a patch down the hierarchy, the threads one bound each.
 void listBeamsOf(Patch shown, ivec2 tile, uint id, inout uint tested, inout uint met) {
   const uint threads = gl_SubgroupSize;
-  const uint firstGroup = gl_SubgroupID * threads * kGroupsAThread,
-             firstBeam = gl_SubgroupID * threads * kBeamsAThread;
   const uint threadsOfGroup = min(threads, kChildren);
   uint waitingGroups = kChildren / threadsOfGroup;
-  if (thread() < waitingGroups) groups[firstGroup + thread()] = constants.root + thread() * threadsOfGroup;
-  subgroupMemoryBarrierShared();
+  if (thread() < waitingGroups) groups[thread()] = constants.root + thread() * threadsOfGroup;
   subgroupBarrier();
   bool isCutShort = false;
   do {
@@ -302,8 +314,7 @@ void listBeamsOf(Patch shown, ivec2 tile, uint id, inout uint tested, inout uint
     while (waitingGroups > 0 && waitingBeams <= threads * (kBeamsAThread - 1)) {
       const uint asked = min(waitingGroups, threads / threadsOfGroup);
       waitingGroups -= asked;
-      const uint group = groups[firstGroup + waitingGroups + min(thread() / threadsOfGroup, asked - 1)];
-      subgroupMemoryBarrierShared();
+      const uint group = groups[waitingGroups + min(thread() / threadsOfGroup, asked - 1)];
       subgroupBarrier();
       const uint index = group + thread() % threadsOfGroup;
       const BeamBounds bounds = boundsAt(index);
@@ -312,26 +323,22 @@ void listBeamsOf(Patch shown, ivec2 tile, uint id, inout uint tested, inout uint
       const bool meets =
           isThere && (boundsMeetBox(bounds, shown.low, shown.high) || (kIsFlat != 0 && !isBeam));
       const uvec4 inner = subgroupBallot(meets && !isBeam), ends = subgroupBallot(meets && isBeam);
-      const uint place =
-          firstGroup + waitingGroups + kChildren / threadsOfGroup * subgroupBallotExclusiveBitCount(inner);
+      const uint place = waitingGroups + kChildren / threadsOfGroup * subgroupBallotExclusiveBitCount(inner);
       if (meets && !isBeam) {
         groups[place] = bounds.first;
         if (threadsOfGroup < kChildren) groups[place + 1] = bounds.first + threadsOfGroup;
       }
-      if (meets && isBeam) beams[firstBeam + waitingBeams + subgroupBallotExclusiveBitCount(ends)] = index;
+      if (meets && isBeam) beams[waitingBeams + subgroupBallotExclusiveBitCount(ends)] = index;
       waitingGroups += kChildren / threadsOfGroup * subgroupBallotBitCount(inner);
       waitingBeams += subgroupBallotBitCount(ends);
       tested += subgroupBallotBitCount(subgroupBallot(isThere));
       met += subgroupBallotBitCount(inner) + subgroupBallotBitCount(ends);
-      subgroupMemoryBarrierShared();
       subgroupBarrier();
     }
     uint begin = 0;
     for (; begin < waitingBeams; begin += threads)
-      list(beams[firstBeam + min(begin + thread(), waitingBeams - 1)], begin + thread() < waitingBeams, tile,
-           id, shown);
+      list(beams[min(begin + thread(), waitingBeams - 1)], begin + thread() < waitingBeams, tile, id, shown);
     isCutShort = isCutShort || begin < waitingBeams;
-    subgroupMemoryBarrierShared();
     subgroupBarrier();
   } while (waitingGroups > 0);
   // A software device leaves all loops of a thread after 65,535 rounds.
@@ -353,7 +360,8 @@ void listBeamsOfTile(uvec2 tile, inout uint tested, inout uint met) {
     const uint from =
         subgroupBallotBitExtract(threads, middleThread) ? middleThread : subgroupBallotFindLSB(threads);
     const ivec2 chosen = placeInTile(subgroupShuffle(mine, from) * gl_SubgroupSize + from);
-    const Patch patchOfPixels = takePatch(corner, chosen, number == kMostPatches, float(id), waiting);
+    const Patch patchOfPixels =
+        takePatch(corner, loadSquareOf(from, corner + chosen), number == kMostPatches, float(id), waiting);
     listBeamsOf(patchOfPixels, corner, id, tested, met);
   }
   if (subgroupBallot(waiting != 0) != uvec4(0) && thread() == 0) atomicAdd(constants.counts.unfinished, 1);
@@ -361,10 +369,7 @@ void listBeamsOfTile(uvec2 tile, inout uint tested, inout uint met) {
 
 void main() {
   uint tested = 0, met = 0;
-  for (uint i = gl_SubgroupID; i < kTilesInGroup; i += gl_NumSubgroups) {
-    const uvec2 tile = uvec2(gl_WorkGroupID.x * kTilesInGroup + i, gl_WorkGroupID.y);
-    if (int(tile.x * kTileSize) < constants.size.x) listBeamsOfTile(tile, tested, met);
-  }
+  listBeamsOfTile(gl_WorkGroupID.xy, tested, met);
   if (thread() == 0 && tested > 0) {
     atomicAdd(constants.counts.tested, tested);
     atomicAdd(constants.counts.culled, tested - met);

@@ -18,14 +18,11 @@ layout(buffer_reference, scalar) buffer LightVolumeCounts {
 
 SHARED_BEGIN
 
-// A subgroup's square of pixels.
+// A group's square of pixels.
 SHARED_CONSTANT uint kTileSize = 8u;
 SHARED_CONSTANT uint kTilePixels = kTileSize * kTileSize;
 // A tile has four of these.
 SHARED_CONSTANT uint kBlockSize = 4u;
-// A workgroup's row of tiles.
-SHARED_CONSTANT uint kTilesInGroup = 8u;
-SHARED_CONSTANT uint kThreads = 64u;
 // Of the images that hold beams and bounds.
 SHARED_CONSTANT uint kTexelsInRow = 4096u;
 SHARED_CONSTANT uint kTexelsOfBounds = 4u;

@@ -5,9 +5,9 @@
 // plane that follows the receivers is bent, within half the distance to its neighbours, onto what the virtual
 // camera sees: light is then left where it arrives, and nothing is smeared between planes.
 //
-// Each thread of a subgroup finds where one beam falls; then all of them, as a block a texel a thread, move
-// over one beam's footprint after the other. Loops ask at their end: a software device passes once through
-// all that stands in one, whether it has threads for it or not.
+// A group is one subgroup. Each thread finds where one beam falls; then all of them, as a block a texel a
+// thread, move over one beam's footprint after the other. Loops ask at their end: a software device passes
+// once through all that stands in one, whether it has threads for it or not.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -23,7 +23,7 @@ layout(constant_id = 1) const uint kFollowsReceivers = 1;
 // camera sees.
 layout(constant_id = 2) const uint kGoesAlongAxis = 1;
 const int kStepsToReceiver = kGoesAlongAxis != 0 ? 4 : 6;
-layout(local_size_x = 64) in;
+layout(local_size_x_id = 3) in;
 layout(push_constant, scalar) uniform Constants {
   DepositConstants constants;
 };
@@ -298,18 +298,15 @@ void add(vec2 texel, float part, Target target) {
                      uint(units[c]));
 }
 
-// The threads at work in a subgroup stand in a block.
+// The threads of a subgroup stand in a block.
 struct Block {
   uvec2 size;
   uvec2 place;  // of this thread
 };
 
 Block blockOfSubgroup() {
-  const uvec4 threads = subgroupBallot(true);
-  const uint count = subgroupBallotBitCount(threads);
-  const uint width = 1u << ((uint(findMSB(count)) + 1) / 2);
-  const uint thread = subgroupBallotExclusiveBitCount(threads);
-  return Block(uvec2(width, count / width), uvec2(thread % width, thread / width));
+  const uint width = 1u << ((uint(findMSB(gl_SubgroupSize)) + 1) / 2), thread = gl_SubgroupInvocationID;
+  return Block(uvec2(width, gl_SubgroupSize / width), uvec2(thread % width, thread / width));
 }
 
 // Shares out a line's flux. Texels are clipped against it side by side: nothing is left out between them.

@@ -17,8 +17,8 @@
 namespace nephroid {
 namespace {
 
-// As many as the fewest workgroups of one dispatch that Vulkan promises can hold, at 64 threads each.
-constexpr std::size_t kMostBeamsADispatch = 65535 * 64;
+// The fewest that Vulkan promises.
+constexpr std::size_t kMostGroupsADispatch = 65535;
 
 // Of a window, which begins in a corner of images of `imageSize` texels along a side.
 ViewConstants viewOf(const PlaneSet& set, uint32_t window, uint32_t imageSize) {
@@ -233,8 +233,9 @@ void PlaneTechnique::drawReceivers(gpu::CommandList& commands, const GpuScene& g
 void PlaneTechnique::deposit(gpu::CommandList& commands, std::size_t set, VkDeviceAddress ofBeams) {
   const PlaneImages& own = images[set];
   const std::size_t all = lit[set].light.beams.size();
-  for (std::size_t first = 0; first < all; first += kMostBeamsADispatch) {
-    const auto count = uint32_t(std::min(all - first, kMostBeamsADispatch));
+  const std::size_t most = kMostGroupsADispatch * device.subgroupSize();
+  for (std::size_t first = 0; first < all; first += most) {
+    const auto count = uint32_t(std::min(all - first, most));
     commands.dispatch(
         depositPrograms[lit[set].channels == 3], {count, 1, 1},
         DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), count, float(lit[set].textureSize)},
