@@ -9,7 +9,7 @@
 
 namespace nephroid {
 
-using dvec3 = glm::dvec3;
+using glm::dvec3;
 
 struct ShapePoint {
   dvec3 position;
