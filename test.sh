@@ -1,9 +1,16 @@
 #!/usr/bin/env bash
 # Everything that has to hold: rules and format, a build with clang and the sanitizers, a release build with gcc, all tests.
 # The tests' own summary closes the output.
+#   ./test.sh          everything
+#   ./test.sh quick    the tests that need neither a driver nor counted answers, built with gcc
 set -euo pipefail
 cd "$(dirname "$0")"
 . scripts/build.sh
+
+if [ "${1:-}" != "" ] && [ "$1" != quick ]; then
+  echo "test.sh: '$1' is not known; give nothing, or 'quick'" >&2
+  exit 2
+fi
 
 step() { printf '\n== %s\n' "$*"; }
 
@@ -15,6 +22,13 @@ scripts/check_includes.sh
 
 step "Format"
 scripts/check_format.sh
+
+if [ "${1:-}" = quick ]; then
+  step "gcc: release, warnings as errors; quick tests"
+  build build/test --preset test
+  ctest --test-dir build/test --parallel 2 --output-on-failure --label-regex quick
+  exit
+fi
 
 step "clang: warnings as errors; address and undefined-behaviour sanitizers on the tests that need no driver"
 build build/sanitize --preset sanitize

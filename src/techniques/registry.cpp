@@ -13,7 +13,7 @@ NEPHROID_TECHNIQUES(DECLARE_TECHNIQUE)
 
 namespace {
 
-#define ADDRESS_OF_TECHNIQUE(name) &name,
+#define ADDRESS_OF_TECHNIQUE(name) &(name),
 constexpr const TechniqueInfo* kTechniques[] = {NEPHROID_TECHNIQUES(ADDRESS_OF_TECHNIQUE)};
 #undef ADDRESS_OF_TECHNIQUE
 
