@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "core/stopwatch.h"
-#include "table_meshes.h"
+#include "support/table_meshes.h"
 #include "trace/ray_scene.h"
 #include "transport/table/table.h"
 

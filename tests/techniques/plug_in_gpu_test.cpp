@@ -7,12 +7,12 @@
 #include <string>
 
 #include "core/image_io.h"
-#include "even_light/settings.h"
+#include "techniques/even_light/settings.h"
 #include "geometry/shapes.h"
-#include "gpu_fixture.h"
+#include "support/gpu_fixture.h"
 #include "render/settings.h"
 #include "render/technique_meter.h"
-#include "run_program.h"
+#include "support/run_program.h"
 #include "techniques/composite.h"
 #include "techniques/registry.h"
 

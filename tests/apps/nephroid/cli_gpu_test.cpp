@@ -1,0 +1,148 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/image_io.h"
+#include "gpu/device.h"
+#include "support/run_program.h"
+
+namespace nephroid {
+namespace {
+
+constexpr const char* kScene = R"(
+[camera]
+position = [0, 1, 3]
+target = [0, 0, 0]
+[environment]
+ambient = [1, 1, 1]
+[[material]]
+name = "white"
+type = "diffuse"
+[[object]]
+name = "ground"
+material = "white"
+shape = "plane"
+size = [4, 4]
+)";
+
+class RenderCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      gpu::listDevices();
+    } catch (const RuntimeFailure& none) {
+      GTEST_SKIP() << "there is no Vulkan driver: " << none.what();
+    }
+    std::ofstream(folder / "scene.toml") << kScene;
+  }
+  std::string at(const char* name) const { return (folder / name).string(); }
+  ProgramResult render(std::vector<std::string> changed, const std::string& environment = "") const {
+    std::vector<std::string> arguments{"render", at("scene.toml"), "--technique", "none", "--size", "32x24"};
+    arguments.insert(arguments.end(), changed.begin(), changed.end());
+    return runProgram(arguments, environment);
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(RenderCommand, WritesAPictureAndItsLayers) {
+  ASSERT_EQ(render({"-o", at("a.png"), "--repeat", "3", "--stats", at("stats.json")}).status, 0);
+  EXPECT_EQ(readPng(folder / "a.png").width, 32u);
+  ASSERT_EQ(render({"-o", at("a.exr")}).status, 0);
+  const Image layers = readExr(folder / "a.exr");
+  for (const char* name :
+       {"R", "G", "B", "direct.R", "caustics.B", "depth.Z", "normal.X", "normal.Y", "normal.Z"})
+    EXPECT_NE(layers.find(name), nullptr) << name;
+  const auto stats = nlohmann::json::parse(readAll(folder / "stats.json"));
+  EXPECT_GT(stats["passes"].size(), 0u);
+  EXPECT_GT(stats["memory_bytes"], 0);
+}
+
+TEST_F(RenderCommand, TheSameCommandWritesTheSameBytes) {
+  for (const char* name : {"a.png", "b.png", "a.exr", "b.exr"}) ASSERT_EQ(render({"-o", at(name)}).status, 0);
+  EXPECT_EQ(readAll(folder / "a.png"), readAll(folder / "b.png"));
+  EXPECT_EQ(readAll(folder / "a.exr"), readAll(folder / "b.exr"));
+}
+
+TEST_F(RenderCommand, NumbersItsFrames) {
+  ASSERT_EQ(render({"-o", at("a.png"), "--frames", "3:4"}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.0003.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.0004.png"));
+  EXPECT_EQ(folder.fileCount(), 3u);
+}
+
+TEST_F(RenderCommand, WrongInputLeavesNothingBehind) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {"-o", at("a.jpg")},
+      {"-o", at("a.png"), "--size", "0x4"},
+      {"-o", at("a.png"), "--size", "99999x99999"},
+      {"-o", at("a.png"), "--size", "32"},
+      {"-o", at("a.png"), "--frames", "4:3"},
+      {"-o", at("a.png"), "--frames", "0:4294967295"},
+      {"-o", at("a.png"), "--planes", "sensor"},
+      {"-o", at("a.png"), "--technique", "illumination"},
+      {"-o", at("a.png"), "--device", "no such device"},
+      {"-o", at("a.png"), "--fps", "0"},
+  };
+  for (const std::vector<std::string>& arguments : wrong) {
+    const ProgramResult result = render(arguments);
+    EXPECT_EQ(result.status, 2) << arguments[2] << ": " << result.errors;
+    EXPECT_TRUE(result.hasOneLineOfErrors()) << result.errors;
+  }
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+// A lit floor under a sensor and a glass ball: techniques differ from the reference in the ball's light
+// alone.
+TEST_F(RenderCommand, ComparesTechniquesWithTheReference) {
+  std::ofstream(folder / "ball.toml") << kScene << R"(
+[[material]]
+name = "glass"
+type = "dielectric"
+[[object]]
+name = "ball"
+material = "glass"
+shape = "sphere"
+radius = 0.3
+vertices = 2000
+translation = [0, 0.8, 0]
+[[light]]
+type = "point"
+position = [0, 3, 0]
+intensity = 100
+[[sensor]]
+name = "floor"
+corner = [-1, 0, -1]
+u = [2, 0, 0]
+v = [0, 0, 2]
+resolution = [16, 16]
+)";
+  const ProgramResult result = runProgram({"compare", at("ball.toml"), "-o", at("report"), "--size", "32x24",
+                                           "--techniques", "illumination-textures,none", "--passes", "2",
+                                           "--paths", "transmission", "--source", "traced"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto json = nlohmann::json::parse(readAll(folder / "report/report.json"));
+  EXPECT_EQ(json["view"]["reference"]["passes"], 2);
+  EXPECT_NE(json["command"].get<std::string>().find("--paths transmission"), std::string::npos);
+  ASSERT_EQ(json["view"]["techniques"].size(), 2u);
+  const auto& sensor = json["sensors"][0]["techniques"];
+  EXPECT_EQ(sensor[0]["name"], "illumination-textures");
+  EXPECT_NEAR(sensor[0]["layers"]["caustics"]["flux_ratio"].get<double>(), 1, 0.05);
+  EXPECT_NEAR(sensor[0]["layers"]["direct"]["flux_ratio"].get<double>(), 1, 0.05);
+  EXPECT_EQ(sensor[1]["layers"]["caustics"]["flux_ratio"], 0);
+  EXPECT_EQ(readExr(folder / "report/sensor1-floor.reference.exr").width, 16u);
+  EXPECT_EQ(readPng(folder / "report/none.png").width, 32u);
+}
+
+TEST_F(RenderCommand, SaysWhatToInstallWhereThereIsNoDriver) {
+  const ProgramResult result =
+      render({"-o", at("a.png")}, "VK_ICD_FILENAMES=/none.json VK_DRIVER_FILES=/none.json");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(result.hasOneLineOfErrors()) << result.errors;
+  EXPECT_NE(result.errors.find("mesa-vulkan-drivers"), std::string::npos) << result.errors;
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+}  // namespace
+}  // namespace nephroid

@@ -1,0 +1,187 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/image_io.h"
+#include "support/run_program.h"
+
+namespace nephroid {
+namespace {
+
+// Wrong input ends with status 2 and one line that holds `expected`.
+void expectWrong(const std::vector<std::string>& arguments, const std::string& expected) {
+  const ProgramResult result = runProgram(arguments);
+  EXPECT_EQ(result.status, 2) << result.errors;
+  EXPECT_TRUE(result.hasOneLineOfErrors()) << result.errors;
+  EXPECT_EQ(result.errors.rfind("nephroid: error: ", 0), 0u) << result.errors;
+  EXPECT_NE(result.errors.find(expected), std::string::npos) << result.errors;
+  EXPECT_EQ(result.output, "");
+}
+
+TEST(CommandLine, TellsItsVersionAndItsHelp) {
+  const ProgramResult version = runProgram({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.output.rfind("nephroid ", 0), 0u);
+  const ProgramResult help = runProgram({"--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_NE(help.output.find("info"), std::string::npos);
+}
+
+TEST(CommandLine, NamesTheNearestOfWhatItDoesNotKnow) {
+  expectWrong({}, "--help");
+  expectWrong({"inof"}, "did you mean 'info'?");
+  expectWrong({"--hepl"}, "did you mean '--help'?");
+  expectWrong({"info", "--hepl"}, "did you mean '--help'?");
+  expectWrong({"info", "a.toml", "b.toml"}, "toml");
+  expectWrong({"bench", "light-transport-tabel"}, "did you mean 'light-transport-table'?");
+  expectWrong({"bench", "papers-1-2", "--scenes", "nowhere"}, "nowhere/glass-ball.toml");
+}
+
+constexpr const char* kFloor = R"(
+[[material]]
+name = "white"
+type = "diffuse"
+[[object]]
+name = "ground"
+material = "white"
+shape = "plane"
+size = [2, 2]
+[[light]]
+type = "point"
+position = [0, 2, 0]
+intensity = 40
+[[sensor]]
+name = "floor"
+corner = [-0.5, 0, -0.5]
+u = [1, 0, 0]
+v = [0, 0, 1]
+resolution = [8, 8]
+)";
+
+class SceneCommand : public testing::Test {
+ protected:
+  SceneCommand() { writeScene("scene.toml", kFloor); }
+  void writeScene(const char* name, const std::string& text) { std::ofstream(folder / name) << text; }
+  std::string at(const char* name) const { return (folder / name).string(); }
+  TemporaryFolder folder;
+};
+
+TEST_F(SceneCommand, InfoSaysWhatASceneHolds) {
+  const ProgramResult result = runProgram({"info", at("scene.toml")});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_NE(result.output.find("sensor"), std::string::npos) << result.output;
+}
+
+TEST_F(SceneCommand, BakedTablesAreUsedForTheirSceneAndRefusedForAnother) {
+  const std::string ball = R"(
+[[material]]
+name = "glass"
+type = "dielectric"
+ior = 1.5
+[[object]]
+name = "ball"
+material = "glass"
+shape = "sphere"
+radius = 0.3
+vertices = 200
+translation = [0, 1, 0]
+)";
+  writeScene("ball.toml", kFloor + ball);
+  const std::string cache = "XDG_CACHE_HOME=" + folder.path().string();
+  ASSERT_EQ(
+      runProgram({"bake", at("ball.toml"), "-o", at("ball.tables"), "--directions", "33"}, cache).status, 0);
+  const auto measure = [&](const char* directions) {
+    return runProgram(
+        {"measure", at("ball.toml"), "--sensor", "floor", "-o", at("floor.exr"), "--planes", "sensor",
+         "--source", "table", "--directions", directions, "--baked", at("ball.tables")},
+        cache);
+  };
+  EXPECT_EQ(measure("33").status, 0) << measure("33").errors;
+  const ProgramResult other = measure("129");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(other.hasOneLineOfErrors()) << other.errors;
+  EXPECT_NE(other.errors.find("ball.tables"), std::string::npos) << other.errors;
+  EXPECT_EQ(runProgram({"bake", at("scene.toml"), "-o", at("none.tables")}, cache).status, 2);
+}
+
+TEST_F(SceneCommand, MeasureWritesWhatThePointLightSends) {
+  const ProgramResult result =
+      runProgram({"measure", at("scene.toml"), "--sensor", "floor", "-o", at("floor.exr"), "--source",
+                  "traced", "--technique", "none", "--stats", at("stats.json")});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(result.errors, "");
+  const Image image = readExr(folder / "floor.exr");
+  ASSERT_EQ(image.width, 8u);
+  // I cos / d^2 in the middle of the four texels around the centre, each 1/16 m from it in x and z.
+  const double squared = 4 + 2.0 / 256;
+  EXPECT_NEAR((*image.find("direct.R"))[3 * 8 + 3], 40 * 2 / std::pow(squared, 1.5), 0.01);
+  EXPECT_EQ((*image.find("caustics.R"))[0], 0);
+  const auto stats = nlohmann::json::parse(readAll(folder / "stats.json"));
+  EXPECT_EQ(stats["technique"], "none");
+  EXPECT_EQ(stats["source"], "traced");
+  EXPECT_GT(stats["frame_ms"], 0);
+}
+
+TEST_F(SceneCommand, TheSameCommandWritesTheSameBytes) {
+  for (const char* name : {"a.exr", "b.exr"})
+    runProgram({"measure", at("scene.toml"), "--sensor", "floor", "-o", at(name), "--source", "traced",
+                "--technique", "none"});
+  EXPECT_EQ(readAll(folder / "a.exr"), readAll(folder / "b.exr"));
+  EXPECT_GT(readAll(folder / "a.exr").size(), 0u);
+}
+
+TEST_F(SceneCommand, WrongInputLeavesNothingBehind) {
+  writeScene("broken.toml", "[camera\nposition = 1");
+  const auto measure = [&](std::vector<std::string> changed) {
+    std::vector<std::string> arguments{"measure",  at("scene.toml"), "-o",          at("floor.exr"),
+                                       "--source", "traced",         "--technique", "none"};
+    arguments.insert(arguments.end(), changed.begin(), changed.end());
+    return arguments;
+  };
+  expectWrong(measure({"--sensor", "flor"}), "did you mean 'floor'?");
+  expectWrong(measure({"--sensor", "floor", "--repeat", "0"}), "--repeat");
+  expectWrong(measure({"--sensor", "floor", "--texture-size", "1e9"}), "16 to 8192");
+  expectWrong(measure({"--sensor", "floor", "--directions", "-3"}), "--directions");
+  expectWrong(measure({"--sensor", "floor", "--time", "later"}), "--time");
+  expectWrong(measure({"--sensor", "floor", "--time", "nan"}), "--time");
+  expectWrong(measure({"--sensor", "floor", "--planse", "4"}), "did you mean '--planes'?");
+  expectWrong(measure({}), "--sensor");
+  expectWrong({"measure", at("broken.toml"), "--sensor", "floor", "-o", at("floor.exr")}, "broken.toml");
+  expectWrong({"measure", at("none.toml"), "--sensor", "floor", "-o", at("floor.exr")}, "none.toml");
+  expectWrong({"measure", at("scene.toml"), "--sensor", "floor", "-o", at("floor.jpg")}, ".exr");
+  expectWrong(
+      {"measure", at("scene.toml"), "--sensor", "floor", "-o", at("a.exr"), "--stats", at("scene.toml")},
+      "scene itself");
+  EXPECT_EQ(folder.fileCount(), 2u);
+}
+
+TEST_F(SceneCommand, CompareRefusesWrongInputAndForeignFolders) {
+  const auto compare = [&](std::vector<std::string> changed) {
+    std::vector<std::string> arguments{"compare", at("scene.toml")};
+    arguments.insert(arguments.end(), changed.begin(), changed.end());
+    return arguments;
+  };
+  std::filesystem::create_directory(folder / "mine");
+  std::ofstream(folder / "mine/notes.txt") << "mine";
+  expectWrong(compare({"-o", at("mine")}), "notes.txt");
+  expectWrong(compare({"-o", at("report"), "--techniques", "none,illumination-texture"}),
+              "did you mean 'illumination-textures'?");
+  expectWrong(compare({"-o", at("report"), "--passes", "0"}), "--passes");
+  expectWrong(compare({"-o", at("report"), "--error", "small"}), "--error");
+  expectWrong(compare({"-o", at("report"), "--size", "0x4"}), "--size");
+  expectWrong({"compare", "--techniques", "none", at("none.toml"), "-o", at("report")}, "none.toml");
+  expectWrong(compare({}), "--output");
+  EXPECT_EQ(folder.fileCount(), 2u);
+}
+
+TEST_F(SceneCommand, WhatCannotBeWrittenIsAFailure) {
+  const ProgramResult result =
+      runProgram({"measure", at("scene.toml"), "--sensor", "floor", "-o", at("none/floor.exr")});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(result.hasOneLineOfErrors()) << result.errors;
+}
+
+}  // namespace
+}  // namespace nephroid

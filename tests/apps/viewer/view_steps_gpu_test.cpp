@@ -1,0 +1,159 @@
+// What hands do in the window.
+#include "apps/viewer/view_steps.h"
+
+#include <algorithm>
+#include <regex>
+#include <span>
+
+#include "formats/scene_toml.h"
+
+namespace nephroid {
+namespace {
+
+std::size_t stonesIn(const ViewerState& state) {
+  const auto& simulation = state.scene.objects.at(0).water->simulation;
+  return simulation ? simulation->drops.size() : 0;
+}
+
+TEST_F(ViewSteps, AClickOnWaterDropsAStoneThatIsSavedWithTheScene) {
+  const fs::path file = written("pool.toml", kPool);
+  ASSERT_TRUE(opens(file));
+  hands().click({40, 30});
+  ASSERT_EQ(stonesIn(state()), 1u);
+  EXPECT_TRUE(state().isPlaying);
+  EXPECT_EQ(state().selection.what, Chosen::nothing);
+  state().isPlaying = false;
+  viewer().setTime(0.5);
+  stepNow(viewer());
+  const ByteImage moved = viewer().picture();
+  hands().key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  EXPECT_EQ(stonesIn(state()), 0u);
+  EXPECT_GT(largestDifference(viewer().picture(), moved), 3u);
+  hands().key(GLFW_KEY_Y, GLFW_MOD_CONTROL);
+  EXPECT_EQ(stonesIn(state()), 1u);
+  EXPECT_FALSE(viewer().isSaved());
+  ASSERT_TRUE(viewer().save());
+  EXPECT_TRUE(viewer().isSaved());
+  EXPECT_LE(largestDifference(rendered(file, "0.5"), moved), 1u);
+}
+
+TEST_F(ViewSteps, EachDragOfTheCameraIsTakenBackByItself) {
+  const fs::path file = written("ball.toml", kBall);
+  state().settings.technique.technique = "none";
+  ASSERT_TRUE(opens(file));
+  const Camera first = state().scene.camera;
+  hands().drag({70, 60}, {50, 55});
+  const Camera second = state().scene.camera;
+  hands().drag({70, 60}, {60, 65});
+  const Camera third = state().scene.camera;
+  for (int i = 0; i < 3; ++i) {
+    hands().scroll(1);
+    stepNow(viewer());
+  }
+  EXPECT_NE(state().scene.camera, third);
+  EXPECT_TRUE(viewer().isSaved());
+  for (const Camera& camera : {third, second, first, first}) {
+    hands().key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+    EXPECT_EQ(state().scene.camera, camera);
+  }
+}
+
+// Of few vertices: finer shapes take long, and show no more of the viewer. Meshes of files stay as they are.
+std::string coarse(const fs::path& scene) {
+  const std::regex ofMesh("(mesh = .*(\\n[^\\[\\n].*)*?)\\nvertices = [0-9]+");
+  const std::string text = std::regex_replace(readSceneFile(scene), ofMesh, "$1");
+  const std::string few = std::regex_replace(text, std::regex("\\nvertices = [0-9]+"), "\nvertices = 600");
+  return std::regex_replace(
+      std::regex_replace(few, std::regex("\\ngrid = \\[[0-9, ]+\\]"), "\ngrid = [24, 24]"),
+      std::regex("\\nsamples = [0-9]+"), "\nsamples = 2");
+}
+
+bool isOneColor(const ByteImage& picture) {
+  const auto pixel = std::span(picture.bytes).first(picture.components);
+  for (std::size_t i = 0; i < picture.bytes.size(); i += picture.components)
+    if (!std::ranges::equal(std::span(picture.bytes).subspan(i, picture.components), pixel)) return false;
+  return true;
+}
+
+// Stands for the bunny, which takes long to follow light through.
+constexpr const char* kSmallBunny = R"(v -0.5 0 -0.5
+v 0.5 0 -0.5
+v 0 0 0.5
+v 0 0.8 0
+f 1 2 3
+f 1 4 2
+f 2 4 3
+f 3 4 1
+)";
+
+// One after another in one window; all are saved, and some are rendered from what was saved.
+TEST_F(ViewSteps, OpensEachSceneAndItsPictureFollowsTheLight) {
+  const fs::path scenes = fs::path(NEPHROID_SOURCE_DIR) / "scenes";
+  for (const char* name : {"polka-dots.png", "evening-sky.exr"}) fs::copy(scenes / name, folder_ / name);
+  written("bunny.obj", kSmallBunny);
+  const std::vector<std::string> saved{"glass-ball.toml", "knot-spotlight.toml", "water-drops.toml",
+                                       "paper4-stage.toml"};
+  std::size_t opened = 0;
+  for (const auto& entry : fs::directory_iterator(scenes)) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string name = entry.path().filename().string();
+    SCOPED_TRACE(name);
+    const fs::path file = written(name, coarse(entry.path()));
+    ASSERT_TRUE(opens(file));
+    const ByteImage first = viewer().picture();
+    EXPECT_FALSE(isOneColor(first));
+    moveFirstLight(viewer());
+    EXPECT_GT(largestDifference(viewer().picture(), first), 0u);
+    EXPECT_FALSE(viewer().isSaved());
+    ASSERT_TRUE(viewer().save()) << state().message.text;
+    if (std::ranges::count(saved, name) > 0) {
+      EXPECT_LE(largestDifference(viewer().picture(), rendered(file)), 1u);
+    }
+    ++opened;
+  }
+  EXPECT_GT(opened, 30u);
+}
+
+TEST_F(ViewSteps, WhatIsDroppedIsOpenedOrAddedOrTheWindowSaysWhyNot) {
+  state().settings.technique.technique = "none";
+  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  hands().drop(written("picture.jpg", ""));
+  stepNow(viewer());
+  EXPECT_NE(state().message.text.find("what can be dropped"), std::string::npos);
+  hands().drop(written("wrong.toml", "[camera\n"));
+  ASSERT_TRUE(stepUntil([&] { return state().message.text.find("wrong.toml:1") != std::string::npos; }));
+  EXPECT_EQ(state().scene.objects.size(), 2u);
+  hands().drop(
+      written("tent.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+  ASSERT_TRUE(stepUntil([&] { return state().scene.objects.size() == 3; }));
+  EXPECT_FALSE(viewer().isSaved());
+  hands().drop(written("other.toml", kBall));
+  stepNow(viewer());
+  ASSERT_TRUE(state().question);
+  state().question->answer = Question::Answer::cancel;
+  stepNow(viewer());
+  EXPECT_EQ(state().scene.objects.back().name, "tent");
+}
+
+// In the frame that takes it in.
+TEST_F(ViewSteps, WhatAHandDoesIsSeenInTheNextFrame) {
+  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  const vec2 from = *pixelOf(state().scene.camera, kSize, state().scene.lights[0].position);
+  hands().moveTo(from);
+  stepNow(viewer());
+  hands().press();
+  stepNow(viewer());
+  for (int i = 1; i <= 5; ++i) {
+    const ByteImage before = viewer().picture();
+    hands().moveTo(from - vec2(5 * i, 0));
+    int frames = 0;
+    do {
+      stepNow(viewer());
+      ++frames;
+    } while (viewer().picture().bytes == before.bytes && frames < 10);
+    EXPECT_EQ(frames, 1);
+  }
+}
+
+}  // namespace
+}  // namespace nephroid
