@@ -110,7 +110,6 @@ void CommandList::writeTimestamp(uint32_t query) {
 }
 
 void CommandList::pass(const std::string& name, const std::function<void()>& record) {
-  barrier();
   if (device_.hasDebugNames()) {
     auto label = structure<VkDebugUtilsLabelEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT);
     label.pLabelName = name.c_str();
@@ -122,6 +121,9 @@ void CommandList::pass(const std::string& name, const std::function<void()>& rec
     timedPasses_.push_back(name);
     writeTimestamp(query);
   }
+  // After the timestamp: Mesa's software device writes one when it comes to a barrier or to drawing, so that
+  // without it a pass that only computes would begin when it ends.
+  barrier();
   record();
   if (timed) writeTimestamp(query + 1);
   if (device_.hasDebugNames()) vkCmdEndDebugUtilsLabelEXT(commandBuffer_);
