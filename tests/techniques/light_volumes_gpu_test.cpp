@@ -40,7 +40,7 @@ class LightVolumesGpuTest : public GpuTest {
   std::vector<double> measure(const Scene& scene, const Sensor& sensor,
                               Culling culling = Culling::hierarchical) {
     TechniqueSettings settings;
-    settings.technique = "light-volumes";
+    settings.technique = technique;
     settings.transport.source = Source::traced;
     settings.own.of<LightVolumeSettings>().culling = culling;
     settings.transport.paths = paths;
@@ -49,11 +49,13 @@ class LightVolumesGpuTest : public GpuTest {
     Progress progress;
     Stats stats;
     std::vector<double> lux;
-    for (const vec3& texel : TechniqueMeter(device(), scene, sensor, settings, progress, stats).read())
+    for (const vec3& texel : TechniqueMeter(*chosen, scene, sensor, settings, progress, stats).read())
       lux.push_back(double(texel.y));
     return lux;
   }
 
+  gpu::Device* chosen = &device();
+  std::string technique = "light-volumes";
   float shadowTolerance = BeamDivision{}.shadowTolerance;
   float contributionError = 0;
   Paths paths = Paths::transmission;
@@ -126,6 +128,29 @@ TEST_F(LightVolumesGpuTest, ASineFocusesWhereItsMappingSays) {
     }
     EXPECT_LT(errors[1], 0.8 * errors[0]) << "depth " << depth;
   }
+}
+
+TEST_F(LightVolumesGpuTest, SubgroupsHaveAnySizeThatTheDeviceOffers) {
+  Water water;
+  water.size = {3, 0.4f};
+  water.grid = {300, 40};
+  water.waves = {{0.02f, 0.5f, {1, 0}, 0, 0}};
+  const Scene scene = waterOverBed(water, 0.9f, {0, -1, 0});
+  const Sensor sensor{"bed", {-0.5f, -0.9f, -0.05f}, {1, 0, 0}, {0, 0, 0.1f}, {256, 1}};
+  const std::vector<double> exact = exactUnderSine(0.02, 2 * std::numbers::pi / 0.5, 0.9, -0.5, 0.5, 256);
+  ASSERT_FALSE(device().info().subgroupSizes.empty());
+  for (const uint32_t size : device().info().subgroupSizes) {
+    gpu::Device sized({std::to_string(device().info().index), true, {}, size});
+    chosen = &sized;
+    for (const char* name : {"light-volumes", "illumination-textures"}) {
+      technique = name;
+      double flux;
+      relativeError(measure(scene, sensor), exact, &flux);
+      EXPECT_NEAR(flux, 1, 0.005) << name << ", " << size << " threads";
+    }
+    for (const std::string& message : sized.validationMessages()) ADD_FAILURE() << message;
+  }
+  EXPECT_THROW(gpu::Device({std::to_string(device().info().index), true, {}, 3}), InputError);
 }
 
 Water choppyWater() {

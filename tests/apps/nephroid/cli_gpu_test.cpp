@@ -135,6 +135,60 @@ resolution = [16, 16]
   EXPECT_EQ(readPng(folder / "report/none.png").width, 32u);
 }
 
+constexpr const char* kWater = R"(
+[camera]
+position = [0, 2, 4]
+target = [0, -1, 0]
+[[material]]
+name = "water"
+type = "dielectric"
+ior = 1.33
+[[material]]
+name = "white"
+type = "diffuse"
+[[object]]
+name = "pool"
+shape = "water"
+material = "water"
+size = [2, 2]
+grid = [60, 60]
+waves = [{amplitude = 0.02, wavelength = 0.5, direction = [1, 0.3], speed = 0, phase = 0}]
+[[object]]
+name = "bed"
+shape = "plane"
+material = "white"
+size = [4, 4]
+translation = [0, -0.9, 0]
+[[light]]
+type = "directional"
+direction = [0, -1, 0]
+illuminance = 1000
+[[sensor]]
+name = "bed"
+corner = [-0.5, -0.9, -0.5]
+u = [1, 0, 0]
+v = [0, 0, 1]
+resolution = [32, 32]
+)";
+
+// Mesa's software device has subgroups of as many threads as a vector register it is told of. Its cache takes
+// programs made for one size for those of another.
+TEST_F(RenderCommand, CountsTheSameBeamsWhateverTheSizeOfSubgroups) {
+  std::ofstream(folder / "water.toml") << kWater;
+  nlohmann::json counts[2];
+  for (const int i : {0, 1}) {
+    const std::string bits = std::to_string(128 << i);
+    ASSERT_EQ(runProgram({"measure", at("water.toml"), "--sensor", "bed", "--technique", "light-volumes",
+                          "-o", at("bed.exr"), "--stats", at("stats.json")},
+                         "MESA_SHADER_CACHE_DISABLE=true LP_NATIVE_VECTOR_WIDTH=" + bits)
+                  .status,
+              0);
+    counts[i] = nlohmann::json::parse(readAll(folder / "stats.json"))["counts"];
+    EXPECT_GT(counts[i]["volumes_drawn"], 0);
+  }
+  EXPECT_EQ(counts[0], counts[1]);
+}
+
 TEST_F(RenderCommand, SaysWhatToInstallWhereThereIsNoDriver) {
   const ProgramResult result =
       render({"-o", at("a.png")}, "VK_ICD_FILENAMES=/none.json VK_DRIVER_FILES=/none.json");
