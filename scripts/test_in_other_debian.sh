@@ -21,43 +21,41 @@ root=$roots/root-$suite
 # The mirror that this machine's apt uses.
 mirror=$(apt-get indextargets --format '$(SITE)' 2>/dev/null | grep -m 1 '/debian$' || true)
 
-if [ ! -x "$root/usr/bin/apt-get" ]; then
+if [ ! -d "$root" ]; then
   if [ -z "$mirror" ]; then
     echo "test_in_other_debian.sh: apt here knows no Debian mirror to make a root of $suite from" >&2
     exit 1
   fi
   mkdir -p "$roots"
-  debootstrap --variant=minbase --include=ca-certificates,git "$suite" "$root" "$mirror"
+  rm -rf "$root.unfinished"
+  debootstrap --variant=minbase --include=ca-certificates,git "$suite" "$root.unfinished" "$mirror"
+  mv "$root.unfinished" "$root"
+fi
+exec {lock}>"$root.lock"
+if ! flock -n "$lock"; then
+  echo "test_in_other_debian.sh: another run of it is at work in $root" >&2
+  exit 1
 fi
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 for file in /etc/apt/apt.conf /etc/apt/apt.conf.d/*proxy*; do [ ! -f "$file" ] || cp "$file" "$root/etc/apt/apt.conf.d/"; done
 
 work=$root/work/nephroid
-mounted=()
-leave() {
-  for point in "${mounted[@]}"; do umount -l "$point"; done
-  rm -rf "$work"
-}
-trap leave EXIT
+trap 'rm -rf "$work"' EXIT
 rm -rf "$work"
 git clone -q . "$work"
+mkdir -p "$root/work/shared" "$root/root/.cache/ccache"
 
-# mount_at PLACE [mount option ...]
-mount_at() {
-  local place=$root/$1
-  shift
-  mkdir -p "$place"
-  mount "$@" "$place"
-  mounted=("$place" "${mounted[@]}")
-}
-mount_at proc -t proc proc
-mount_at dev --rbind /dev
-mount_at dev/shm -t tmpfs tmpfs
-if [ -d ../shared ]; then mount_at work/shared --bind -o ro ../shared; fi
-if [ -d "${CCACHE_DIR:-$HOME/.cache/ccache}" ]; then mount_at root/.cache/ccache --bind "${CCACHE_DIR:-$HOME/.cache/ccache}"; fi
-
-command=("$@")
-[ ${#command[@]} -gt 0 ] || command=(./test.sh)
-echo "Debian $(cat "$root/etc/debian_version"): ${command[*]}"
-chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin LANG=C.UTF-8 CI="${CI:-}" \
-  bash -c 'cd /work/nephroid && exec "$@"' bash "${command[@]}"
+# Mounts that no other process sees and that end with this one, as do all processes in the root.
+export root shared ccache ci="${CI:-}"
+shared=$(realpath -q ../shared || true)
+ccache=${CCACHE_DIR:-$HOME/.cache/ccache}
+[ $# -gt 0 ] || set -- ./test.sh
+echo "Debian $(cat "$root/etc/debian_version"): $*"
+unshare --mount --pid --fork --kill-child bash -euo pipefail -c '
+  mount -t proc proc "$root/proc"
+  mount --rbind /dev "$root/dev"
+  mount -t tmpfs tmpfs "$root/dev/shm"
+  [ ! -d "$shared" ] || mount --bind -o ro "$shared" "$root/work/shared"
+  [ ! -d "$ccache" ] || mount --bind "$ccache" "$root/root/.cache/ccache"
+  exec chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin LANG=C.UTF-8 CI="$ci" \
+    bash -c '\''cd /work/nephroid && exec "$@"'\'' bash "$@"' bash "$@"
