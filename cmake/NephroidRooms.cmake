@@ -1,3 +1,5 @@
+add_custom_target(rooms)  # links each alone
+
 # nephroid_room(NAME KNOWS room ... SOURCES file ... SHADERS file ... TEXTS header file ... LIBRARIES library ... SYSTEM_INCLUDES folder ...)
 #
 # A folder of src/ as a target, nephroid_NAME, which may use the rooms that it KNOWS and those that they know. Its objects are part
@@ -24,6 +26,7 @@ function(nephroid_room name)
   target_sources(nephroid PRIVATE $<TARGET_OBJECTS:nephroid_${name}>)
   if(NEPHROID_CHECK_ROOMS)
     add_library(nephroid_${name}_alone SHARED $<TARGET_OBJECTS:nephroid_${name}>)
+    add_dependencies(rooms nephroid_${name}_alone)
     set_target_properties(nephroid_${name}_alone PROPERTIES LINKER_LANGUAGE CXX
                           LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/rooms)
     target_link_options(nephroid_${name}_alone PRIVATE -Wl,-z,defs)

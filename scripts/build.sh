@@ -1,11 +1,11 @@
 # Sourced by demo.sh and test.sh.
 
-# build FOLDER [cmake option ...]: configures and builds; what CMake says is shown where it fails.
+# build FOLDER TARGET [cmake option ...]: configures and builds; what CMake says is shown where it fails.
 build() {
-  local folder=$1 said
-  shift
+  local folder=$1 target=$2 said
+  shift 2
   local options=("$@")
   if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   said=$(cmake -S . -B "$folder" -G Ninja "${options[@]}" 2>&1) || { echo "$said" >&2; return 1; }
-  cmake --build "$folder" --parallel "$(nproc)"
+  cmake --build "$folder" --target "$target" --parallel "$(nproc)"
 }

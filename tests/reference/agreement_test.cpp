@@ -6,7 +6,6 @@
 #include "formats/mesh_file.h"
 #include "geometry/bounds.h"
 #include "support/reference_scenes.h"
-#include "support/reference_scenes.h"
 
 namespace nephroid {
 namespace {

@@ -3,10 +3,8 @@
 
 #include <cmath>
 
-#include "core/image_io.h"
-#include "formats/load.h"
 #include "reference/sensor.h"
-#include "support/shared_data.h"
+#include "support/counted_answers.h"
 
 namespace nephroid {
 namespace {
@@ -29,10 +27,10 @@ class ReferenceTruth : public testing::TestWithParam<Case> {};
 
 TEST_P(ReferenceTruth, IsMetWithinBothSpreads) {
   const Case& wanted = GetParam();
-  const std::filesystem::path folder = sharedData() / "truth";
-  if (!std::filesystem::exists(folder / wanted.answer)) GTEST_SKIP() << "no " << folder / wanted.answer;
-  const Scene scene = loadScene(folder / (std::string(wanted.scene) + ".toml"));
-  const Image answer = readPfm(folder / wanted.answer);
+  const std::filesystem::path answerFile = truthFile(wanted.answer);
+  if (!std::filesystem::exists(answerFile)) GTEST_SKIP() << "no " << answerFile;
+  const Scene scene = truthScene(wanted.scene);
+  const Image answer = readPfm(answerFile);
   const RayScene rays(scene);
   ReferenceSettings settings;
   settings.paths = wanted.paths;

@@ -4,11 +4,10 @@
 
 #include "core/image_io.h"
 #include "lights/emitters.h"
-#include "render/frame.h"
 #include "render/picture.h"
+#include "support/drawing.h"
 #include "support/gpu_fixture.h"
 #include "support/test_meshes.h"
-#include "techniques/registry.h"
 
 namespace nephroid {
 namespace {
@@ -37,16 +36,10 @@ Light pointLight(vec3 position, vec3 intensity) {
 class Frame : public GpuTest {
  protected:
   Image layersOf(const Scene& scene) {
-    Stats stats;
-    Progress progress;
-    TechniqueSettings settings;
-    settings.technique = "none";
-    SceneTransport transport(scene, transportOf(settings), progress);
-    const auto technique = makeTechnique({device(), settings, transport, stats});
-    Renderer renderer(device(), transport, {.size = kSize, .shadowMapSize = 1024}, *technique);
-    renderer.render(scene);
-    picture_ = renderer.picture();
-    return renderer.layers();
+    Drawing drawing(device(), scene, settingsOf("none"), {.size = kSize, .shadowMapSize = 1024});
+    Image layers = drawing.layers(scene);
+    picture_ = drawing.renderer.picture();
+    return layers;
   }
   ByteImage picture_;
 };

@@ -3,9 +3,8 @@
 #include <optional>
 
 #include "geometry/shapes.h"
-#include "render/frame.h"
+#include "support/drawing.h"
 #include "support/gpu_fixture.h"
-#include "techniques/registry.h"
 #include "water/water.h"
 
 namespace nephroid {
@@ -37,27 +36,14 @@ Scene room() {
 
 class Frames : public GpuTest {
  protected:
-  // A technique and what draws its frames.
-  struct Drawing {
-    Drawing(gpu::Device& on, const Scene& scene, const std::string& name, bool keepsLight) {
-      settings.technique = name;
-      settings.transport.source = Source::traced;
-      transport.emplace(scene, transportOf(settings), progress);
-      technique = makeTechnique({on, settings, *transport, stats});
-      renderer.emplace(on, *transport,
-                       RenderSettings{.size = kSize, .shadowMapSize = 256, .keepsLight = keepsLight},
-                       *technique);
-    }
+  struct Kept : Drawing {
+    Kept(const Scene& scene, const std::string& name, bool keepsLight)
+        : Drawing(device(), scene, settingsOf(name),
+                  {.size = kSize, .shadowMapSize = 256, .keepsLight = keepsLight}) {}
     std::vector<uint8_t> draw(const Scene& scene) {
-      renderer->render(scene);
-      return renderer->picture().bytes;
+      renderer.render(scene);
+      return renderer.picture().bytes;
     }
-    TechniqueSettings settings;
-    Progress progress;
-    Stats stats;
-    std::optional<SceneTransport> transport;
-    std::unique_ptr<Technique> technique;
-    std::optional<Renderer> renderer;
   };
 };
 
@@ -88,14 +74,13 @@ TEST_F(Frames, ShowWhatMoves) {
   elsewhere.camera.position = {3, 2, 1};
   for (Object& object : elsewhere.objects) object.placement.translation += vec3(0.4f, 0.1f, 0.2f);
   for (const char* technique : {"automatic", "sliced-images"}) {
-    Drawing keeping(device(), scenes[0], technique, true), making(device(), scenes[0], technique, false);
+    Kept keeping(scenes[0], technique, true), making(scenes[0], technique, false);
     const bool isAutomatic = std::string(technique) == "automatic";
     for (std::size_t i = 0; i < (isAutomatic ? scenes.size() : 4); ++i) {
       making.draw(elsewhere);
       EXPECT_EQ(keeping.draw(scenes[i]), making.draw(scenes[i])) << technique << ", frame " << i;
     }
-    EXPECT_EQ(keeping.draw(scenes.back()),
-              Drawing(device(), scenes.back(), technique, false).draw(scenes.back()))
+    EXPECT_EQ(keeping.draw(scenes.back()), Kept(scenes.back(), technique, false).draw(scenes.back()))
         << technique;
   }
 }
@@ -104,12 +89,12 @@ TEST_F(Frames, ShowWhatMoves) {
 TEST_F(Frames, KeepWhatStandsStill) {
   const Scene scene = room();
   for (const bool keepsLight : {false, true}) {
-    Drawing drawing(device(), scene, "automatic", keepsLight);
+    Kept drawing(scene, "automatic", keepsLight);
     const auto has = [](const std::vector<PassTime>& passes, const std::string& name) {
       return std::ranges::find(passes, name, &PassTime::name) != passes.end();
     };
-    const std::vector<PassTime> first = drawing.renderer->render(scene),
-                                second = drawing.renderer->render(scene);
+    const std::vector<PassTime> first = drawing.renderer.render(scene),
+                                second = drawing.renderer.render(scene);
     for (const char* pass : {"sight", "receivers", "shadow maps", "beams"})
       EXPECT_TRUE(has(first, pass)) << pass;
     for (const char* pass : {"sight", "receivers"}) EXPECT_FALSE(has(second, pass)) << pass;

@@ -8,11 +8,9 @@
 #include "formats/load.h"
 #include "geometry/shapes.h"
 #include "lights/light_intensity.h"
-#include "render/frame.h"
-#include "render/technique_meter.h"
+#include "support/drawing.h"
 #include "support/gpu_fixture.h"
 #include "support/shared_data.h"
-#include "techniques/registry.h"
 
 namespace nephroid {
 namespace {
@@ -74,19 +72,12 @@ class LightShapes : public GpuTest {
     vec3 point, normal, lux;
   };
   std::vector<Sample> drawn(Scene scene) {
-    Stats stats;
-    Progress progress;
-    TechniqueSettings settings;
-    settings.technique = "none";
-    SceneTransport transport(scene, transportOf(settings), progress);
-    const auto technique = makeTechnique({device(), settings, transport, stats});
-    Renderer renderer(device(), transport, {.size = kSize}, *technique);
+    Drawing drawing(device(), scene, settingsOf("none"), {.size = kSize});
     std::vector<Sample> samples;
     for (const vec3 forward : kWalls) {
       scene.camera.target = forward;
       scene.camera.up = forward.y != 0 ? vec3(0, 0, 1) : vec3(0, 1, 0);
-      renderer.render(scene);
-      const Image image = renderer.layers();
+      const Image image = drawing.layers(scene);
       const vec3 right = cross(forward, scene.camera.up);
       for (std::size_t i = 0; i < image.pixelCount(); ++i) {
         const vec2 place = (vec2(float(i % kSize.x), float(i / kSize.x)) + 0.5f) / vec2(kSize) * 2.0f - 1.0f;
@@ -217,12 +208,10 @@ TEST_F(LightShapes, ACausticOfAGoboHasTheFluxOfItsBeams) {
   scene.lights.push_back(light);
   scene.textures.push_back(randomGobo(40, 40));
   scene.sensors.push_back({"floor", {-0.6f, 0, -0.7f}, {1.4f, 0, 0}, {0, 0, 1.4f}, uvec2(64)});
-  TechniqueSettings settings;
-  settings.transport.source = Source::traced;
+  const TechniqueSettings settings = settingsOf(defaultTechnique());
+  const SensorLayer byTechnique = measuredBy(device(), scene, scene.sensors[0], settings);
   Progress progress;
   Stats stats;
-  TechniqueMeter meter(device(), scene, scene.sensors[0], settings, progress, stats);
-  const SensorLayer byTechnique = meter.read();
   const RayScene rays(scene);
   const SensorLayer byBeams =
       measureBeams(scene, rays, TracedSource(scene, rays), scene.sensors[0], settings.transport.paths,

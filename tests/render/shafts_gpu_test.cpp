@@ -4,11 +4,10 @@
 #include <random>
 
 #include "lights/light_intensity.h"
-#include "render/frame.h"
 #include "scene/air.h"
+#include "support/drawing.h"
 #include "support/gpu_fixture.h"
 #include "support/reference_scenes.h"
-#include "techniques/registry.h"
 
 namespace nephroid {
 namespace {
@@ -20,17 +19,11 @@ class ShaftsOfLight : public GpuTest {
  protected:
   // All frames of one renderer; the layers of the last.
   Image drawn(const std::vector<Scene>& frames, const ShaftSettings& shafts = {}, uvec2 size = kSize) {
-    Stats stats;
-    Progress progress;
-    TechniqueSettings settings;
-    settings.technique = "none";
-    SceneTransport transport(frames.front(), transportOf(settings), progress);
-    const auto technique = makeTechnique({device(), settings, transport, stats});
-    Renderer renderer(device(), transport, {.size = size, .shadowMapSize = 1024, .shafts = shafts},
-                      *technique);
-    for (const Scene& scene : frames) renderer.render(scene);
-    planes_ = renderer.shafts().planes();
-    return renderer.layers();
+    Drawing drawing(device(), frames.front(), settingsOf("none"),
+                    {.size = size, .shadowMapSize = 1024, .shafts = shafts});
+    for (const Scene& scene : frames) drawing.renderer.render(scene);
+    planes_ = drawing.renderer.shafts().planes();
+    return drawing.renderer.layers();
   }
   std::vector<AirPlanes> planes_;
 };

@@ -5,10 +5,9 @@
 #include <numeric>
 
 #include "geometry/shapes.h"
-#include "render/frame.h"
+#include "support/drawing.h"
 #include "support/exact_sight.h"
 #include "support/gpu_fixture.h"
-#include "techniques/registry.h"
 #include "water/water.h"
 
 namespace nephroid {
@@ -66,13 +65,7 @@ class SightGpuTest : public GpuTest {
   std::vector<vec3> drawn(const Scene& scene, Source source, uvec2 size = kSize) {
     settings.technique = "none";
     settings.transport.source = source;
-    Progress progress;
-    Stats stats;
-    SceneTransport transport(scene, transportOf(settings), progress);
-    const auto technique = makeTechnique({device(), settings, transport, stats});
-    Renderer renderer(device(), transport, {.size = size}, *technique);
-    renderer.render(scene);
-    return pixelsOf(renderer.layers());
+    return pixelsOf(Drawing(device(), scene, settings, {.size = size}).layers(scene));
   }
 
   // Part of the pixels of a disc about the middle of the picture whose colour is not to be found, to within a
@@ -141,13 +134,7 @@ TEST_F(SightGpuTest, ACausticThroughAPaneIsAsBrightAsThePaneLetsThrough) {
   scene.lights = {lamp};
   const auto causticsOnFloor = [&] {
     settings.technique = "illumination-textures";
-    Progress progress;
-    Stats stats;
-    SceneTransport transport(scene, transportOf(settings), progress);
-    const auto technique = makeTechnique({device(), settings, transport, stats});
-    Renderer renderer(device(), transport, {.size = kSize}, *technique);
-    renderer.render(scene);
-    const Image layers = renderer.layers();
+    const Image layers = Drawing(device(), scene, settings, {.size = kSize}).layers(scene);
     const std::vector<float>& caustics = *layers.find("caustics.G");
     // The lower part of the picture, where the ball is not.
     return std::accumulate(caustics.begin() + std::ptrdiff_t(kSize.x) * 90, caustics.end(), 0.0);
@@ -198,11 +185,7 @@ TEST_F(SightGpuTest, NothingPopsAsTheCameraGoesAround) {
   Scene scene = stripesBehind(makeSphere(0.5f, {.vertices = 6400}), glass());
   const ExactSight exact(scene);
   settings.technique = "none";
-  Progress progress;
-  Stats stats;
-  SceneTransport transport(scene, transportOf(settings), progress);
-  const auto technique = makeTechnique({device(), settings, transport, stats});
-  Renderer renderer(device(), transport, {.size = kSmall}, *technique);
+  Drawing drawing(device(), scene, settings, {.size = kSmall});
   const auto step = [](const std::vector<vec3>& a, const std::vector<vec3>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += largest(a[i] - b[i]);
@@ -214,8 +197,7 @@ TEST_F(SightGpuTest, NothingPopsAsTheCameraGoesAround) {
     for (const std::size_t i : {0u, 1u}) {
       const float angle = glm::radians(360.0f * float(pair) / float(kPairs) + 0.5f * float(i));
       scene.camera.position = {3 * std::sin(angle), 1.2f, 3 * std::cos(angle)};
-      renderer.render(scene);
-      drawn[i] = pixelsOf(renderer.layers());
+      drawn[i] = pixelsOf(drawing.layers(scene));
       traced[i] = exact.picture(scene.camera, kSmall);
     }
     const double more = step(drawn[0], drawn[1]) - step(traced[0], traced[1]);

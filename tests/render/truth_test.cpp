@@ -1,12 +1,7 @@
 // The beams alone against independently counted photons and exact mappings.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "core/image_io.h"
-#include "formats/load.h"
-#include "render/measure.h"
-#include "support/shared_data.h"
+#include "support/counted_answers.h"
 #include "transport/traced/traced_source.h"
 
 namespace nephroid {
@@ -29,27 +24,15 @@ class Truth : public testing::TestWithParam<Case> {};
 
 TEST_P(Truth, IsMetByTheBeamsAlone) {
   const Case& wanted = GetParam();
-  const std::filesystem::path folder = sharedData() / "truth";
-  if (!std::filesystem::exists(folder / wanted.answer)) GTEST_SKIP() << "no " << folder / wanted.answer;
-  const Scene scene = loadScene(folder / (std::string(wanted.scene) + ".toml"));
-  const Image answer = readPfm(folder / wanted.answer);
+  const std::filesystem::path answer = truthFile(wanted.answer);
+  if (!std::filesystem::exists(answer)) GTEST_SKIP() << "no " << answer;
+  const Scene scene = truthScene(wanted.scene);
   const RayScene rays(scene);
-  const TracedSource source(scene, rays);
   Progress progress;
   Stats stats;
-  const SensorLayer layer = measureBeams(scene, rays, source, scene.sensors.at(0), wanted.paths,
-                                         wanted.refineDepth, progress, stats);
-  const std::vector<float>& truth = *answer.find("G");
-  ASSERT_EQ(layer.size(), truth.size());
-  double sum = 0, truthSum = 0, squares = 0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    sum += double(layer[i].y);
-    truthSum += double(truth[i]);
-    squares += std::pow(double(layer[i].y) - double(truth[i]), 2);
-  }
-  EXPECT_NEAR(sum / truthSum, 1, wanted.fluxTolerance);
-  EXPECT_LT(std::sqrt(squares / double(truth.size())) / (truthSum / double(truth.size())),
-            wanted.rmseTolerance);
+  expectCounted(measureBeams(scene, rays, TracedSource(scene, rays), scene.sensors.at(0), wanted.paths,
+                             wanted.refineDepth, progress, stats),
+                answer, wanted.fluxTolerance, wanted.rmseTolerance);
 }
 
 // Tolerances are the project's own bars: 1 % of the flux and 5 % for balls of 25,600 vertices, 3 % of the

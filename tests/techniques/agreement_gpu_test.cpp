@@ -1,6 +1,6 @@
 // Techniques against the reference where light goes on, parts, or scatters all around.
 #include "geometry/shapes.h"
-#include "render/technique_meter.h"
+#include "support/drawing.h"
 #include "support/gpu_fixture.h"
 #include "support/sensor_blocks.h"
 #include "water/water.h"
@@ -15,13 +15,9 @@ class TechniqueAgreement : public GpuTest {
   // On a square part of a floor.
   void expectAsReference(const Scene& scene, const Sensor& sensor, const std::string& technique,
                          Source source, double modelError = kModelError) {
-    TechniqueSettings settings;
-    settings.technique = technique;
-    settings.transport.source = source;
+    TechniqueSettings settings = settingsOf(technique, source);
     settings.transport.paths = Paths::transmission;
-    Progress progress;
-    Stats stats;
-    const SensorLayer drawn = TechniqueMeter(device(), scene, sensor, settings, progress, stats).read();
+    const SensorLayer drawn = measuredBy(device(), scene, sensor, settings);
     const RayScene rays(scene);
     ReferenceSettings ofReference;
     ofReference.paths = Paths::transmission;

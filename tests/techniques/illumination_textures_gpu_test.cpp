@@ -6,7 +6,6 @@
 #include "core/random.h"
 #include "gpu/command_list.h"
 #include "gpu/transfer.h"
-#include "support/gpu_fixture.h"
 #include "shaders/techniques/planes/deposit_comp.h"
 #include "support/gpu_fixture.h"
 #include "support/test_meshes.h"

@@ -4,7 +4,7 @@
 
 #include "geometry/shapes.h"
 #include "optics/refraction.h"
-#include "render/technique_meter.h"
+#include "support/drawing.h"
 #include "support/gpu_fixture.h"
 #include "techniques/light_volumes/settings.h"
 #include "water/water.h"
@@ -39,18 +39,13 @@ class LightVolumesGpuTest : public GpuTest {
  protected:
   std::vector<double> measure(const Scene& scene, const Sensor& sensor,
                               Culling culling = Culling::hierarchical) {
-    TechniqueSettings settings;
-    settings.technique = technique;
-    settings.transport.source = Source::traced;
+    TechniqueSettings settings = settingsOf(technique);
     settings.own.of<LightVolumeSettings>().culling = culling;
     settings.transport.paths = paths;
     settings.beams.shadowTolerance = shadowTolerance;
     settings.own.of<LightVolumeSettings>().contributionError = contributionError;
-    Progress progress;
-    Stats stats;
     std::vector<double> lux;
-    for (const vec3& texel : TechniqueMeter(*chosen, scene, sensor, settings, progress, stats).read())
-      lux.push_back(double(texel.y));
+    for (const vec3& texel : measuredBy(*chosen, scene, sensor, settings)) lux.push_back(double(texel.y));
     return lux;
   }
 

@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/frame.h"
-#include "render/technique_meter.h"
 #include "support/ball_over_floor.h"
+#include "support/drawing.h"
 #include "support/gpu_fixture.h"
 #include "support/quantised_source.h"
 
@@ -28,27 +27,16 @@ class TechniquePicturesGpuTest : public GpuTest {
     ByteImage picture;
   };
   Drawn draw(const Scene& scene, const char* technique, SceneTransport::SourceMaker maker = {}) {
-    TechniqueSettings settings;
-    settings.technique = technique;
-    settings.transport.source = Source::traced;
-    Progress progress;
-    Stats stats;
-    SceneTransport transport(scene, transportOf(settings), progress, std::move(maker));
-    const auto drawing = makeTechnique({device(), settings, transport, stats});
-    Renderer renderer(device(), transport, {.size = kSize}, *drawing);
-    renderer.render(scene);
-    const Image layers = renderer.layers();
-    return {*layers.find("caustics.G"), renderer.picture()};
+    Drawing drawing(device(), scene, settingsOf(technique), {.size = kSize}, std::move(maker));
+    const Image layers = drawing.layers(scene);
+    return {*layers.find("caustics.G"), drawing.renderer.picture()};
   }
 
   std::vector<float> measure(const Scene& scene, const Sensor& sensor) {
     TechniqueSettings settings;
     settings.transport.directions = 33;
-    Progress progress;
-    Stats stats;
     std::vector<float> lux;
-    for (const vec3& texel : TechniqueMeter(device(), scene, sensor, settings, progress, stats).read())
-      lux.push_back(texel.y);
+    for (const vec3& texel : measuredBy(device(), scene, sensor, settings)) lux.push_back(texel.y);
     return lux;
   }
 };
@@ -129,13 +117,8 @@ TEST_F(TechniquePicturesGpuTest, LightGoesAllWays) {
   Scene scene = ballOverFloor(0.9f, {0.1f, 1, 0.05f});
   const Sensor floor{"floor", {-1.5f, 0, -1.5f}, {3, 0, 0}, {0, 0, 3}, {32, 32}};
   const auto flux = [&](const char* technique) {
-    TechniqueSettings settings;
-    settings.technique = technique;
-    settings.transport.source = Source::traced;
-    Progress progress;
-    Stats stats;
     double sum = 0;
-    for (const vec3& texel : TechniqueMeter(device(), scene, floor, settings, progress, stats).read())
+    for (const vec3& texel : measuredBy(device(), scene, floor, settingsOf(technique)))
       sum += double(texel.y);
     return sum;
   };

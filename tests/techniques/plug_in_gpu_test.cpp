@@ -7,14 +7,13 @@
 #include <string>
 
 #include "core/image_io.h"
-#include "techniques/even_light/settings.h"
 #include "geometry/shapes.h"
-#include "support/gpu_fixture.h"
 #include "render/settings.h"
-#include "render/technique_meter.h"
+#include "support/drawing.h"
+#include "support/gpu_fixture.h"
 #include "support/run_program.h"
 #include "techniques/composite.h"
-#include "techniques/registry.h"
+#include "techniques/even_light/settings.h"
 
 namespace nephroid {
 namespace {
@@ -42,14 +41,10 @@ Scene floorAndLamp() {
 class PlugInGpuTest : public GpuTest {};
 
 TEST_F(PlugInGpuTest, IsMeasuredWithItsSetting) {
-  TechniqueSettings settings;
-  settings.technique = kName;
+  TechniqueSettings settings = settingsOf(kName);
   settings.own.of<EvenLightSettings>().lux = 7;
-  Progress progress;
-  Stats stats;
   const Scene scene = floorAndLamp();
-  for (const vec3& lux : TechniqueMeter(device(), scene, scene.sensors[0], settings, progress, stats).read())
-    EXPECT_EQ(lux, vec3(7));
+  for (const vec3& lux : measuredBy(device(), scene, scene.sensors[0], settings)) EXPECT_EQ(lux, vec3(7));
 }
 
 TEST_F(PlugInGpuTest, IsListedWithItsSettings) {

@@ -4,10 +4,9 @@
 
 #include "geometry/shapes.h"
 #include "optics/refraction.h"
-#include "render/frame.h"
 #include "scene/volume.h"
+#include "support/drawing.h"
 #include "support/gpu_fixture.h"
-#include "techniques/registry.h"
 #include "water/water.h"
 
 namespace nephroid {
@@ -38,17 +37,8 @@ class ScatteringGpuTest : public GpuTest {
   // The middle of the picture.
   vec3 shaftsOf(const Scene& scene, const std::string& prefix = "shafts.",
                 const char* name = "light-volumes") {
-    TechniqueSettings settings;
-    settings.technique = name;
-    settings.transport.source = Source::traced;
-    Progress progress;
-    Stats stats;
-    SceneTransport transport(scene, transportOf(settings), progress);
-    const auto technique = makeTechnique({device(), settings, transport, stats});
     constexpr uvec2 kSize(32, 32);
-    Renderer renderer(device(), transport, {.size = kSize}, *technique);
-    renderer.render(scene);
-    const Image layers = renderer.layers();
+    const Image layers = Drawing(device(), scene, settingsOf(name), {.size = kSize}).layers(scene);
     vec3 nit;
     for (int c = 0; c < 3; ++c)
       nit[c] = layers.find(prefix + "RGB"[c])->at(kSize.x * kSize.y / 2 + kSize.x / 2);

@@ -3,10 +3,8 @@
 #include "core/random.h"
 #include "gpu/command_list.h"
 #include "gpu/transfer.h"
-#include "support/gpu_fixture.h"
 #include "shaders/tests/transport/table_comp.h"
 #include "support/gpu_fixture.h"
-#include "support/table_meshes.h"
 #include "support/table_meshes.h"
 #include "transport/table/table.h"
 

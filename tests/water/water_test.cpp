@@ -8,7 +8,6 @@
 #include "formats/load.h"
 #include "geometry/shapes.h"
 #include "support/scratch_files.h"
-#include "support/scratch_files.h"
 #include "transport/scene_transport.h"
 #include "water/ocean.h"
 #include "water/water.h"

@@ -27,7 +27,7 @@ shape = "plane"
 size = [4, 4]
 )";
 
-class RenderCommand : public testing::Test {
+class RenderCommand : public ProgramTest {
  protected:
   void SetUp() override {
     try {
@@ -35,15 +35,13 @@ class RenderCommand : public testing::Test {
     } catch (const RuntimeFailure& none) {
       GTEST_SKIP() << "there is no Vulkan driver: " << none.what();
     }
-    std::ofstream(folder / "scene.toml") << kScene;
+    write("scene.toml", kScene);
   }
-  std::string at(const char* name) const { return (folder / name).string(); }
   ProgramResult render(std::vector<std::string> changed, const std::string& environment = "") const {
     std::vector<std::string> arguments{"render", at("scene.toml"), "--technique", "none", "--size", "32x24"};
     arguments.insert(arguments.end(), changed.begin(), changed.end());
     return runProgram(arguments, environment);
   }
-  TemporaryFolder folder;
 };
 
 TEST_F(RenderCommand, WritesAPictureAndItsLayers) {
@@ -174,7 +172,7 @@ resolution = [32, 32]
 // Mesa's software device has subgroups of as many threads as a vector register it is told of. Its cache takes
 // programs made for one size for those of another.
 TEST_F(RenderCommand, CountsTheSameBeamsWhateverTheSizeOfSubgroups) {
-  std::ofstream(folder / "water.toml") << kWater;
+  write("water.toml", kWater);
   nlohmann::json counts[2];
   for (const int i : {0, 1}) {
     const std::string bits = std::to_string(128 << i);

@@ -44,10 +44,9 @@ v = [0, 0, 1]
 resolution = [8, 8]
 )";
 
-class ReferenceCommand : public testing::Test {
+class ReferenceCommand : public ProgramTest {
  protected:
-  ReferenceCommand() { std::ofstream(folder / "scene.toml") << kScene; }
-  std::string at(const char* name) const { return (folder / name).string(); }
+  ReferenceCommand() { write("scene.toml", kScene); }
   ProgramResult run(const std::string& command, const char* output, std::vector<std::string> more) const {
     std::vector<std::string> arguments{command,     at("scene.toml"), "--technique", "reference",
                                        "--photons", "2000",           "-o",          at(output)};
@@ -56,12 +55,6 @@ class ReferenceCommand : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runProgram(arguments);
   }
-  void expectWrong(const ProgramResult& result, const std::string& expected) const {
-    EXPECT_EQ(result.status, 2) << result.errors;
-    EXPECT_TRUE(result.hasOneLineOfErrors()) << result.errors;
-    EXPECT_NE(result.errors.find(expected), std::string::npos) << result.errors;
-  }
-  TemporaryFolder folder;
 };
 
 void expectSamePixels(const Image& a, const Image& b) {
@@ -145,16 +138,16 @@ TEST_F(ReferenceCommand, InterruptedItKeepsWhatThereIs) {
 TEST_F(ReferenceCommand, SaysWhatItCannotGoOnWith) {
   ASSERT_EQ(run("render", "a.exr", {"--passes", "2"}).status, 0);
   const std::string before = readAll(folder / "a.exr");
-  expectWrong(run("render", "a.exr", {"--resume", "--seed", "5"}), "seed");
+  expectRefused(run("render", "a.exr", {"--resume", "--seed", "5"}), "seed");
   EXPECT_EQ(readAll(folder / "a.exr"), before);
-  expectWrong(run("render", "a.png", {"--resume"}), ".exr");
+  expectRefused(run("render", "a.png", {"--resume"}), ".exr");
   Image foreign;
   foreign.width = foreign.height = 2;
   foreign.channel("R");
   writeExr(folder / "foreign.exr", foreign);
-  expectWrong(run("render", "foreign.exr", {"--resume"}), "foreign.exr");
-  expectWrong(run("render", "b.exr", {"--error", "0"}), "--error");
-  expectWrong(run("render", "b.exr", {"--passes", "0"}), "--passes");
+  expectRefused(run("render", "foreign.exr", {"--resume"}), "foreign.exr");
+  expectRefused(run("render", "b.exr", {"--error", "0"}), "--error");
+  expectRefused(run("render", "b.exr", {"--passes", "0"}), "--passes");
   EXPECT_FALSE(std::filesystem::exists(folder / "b.exr"));
 }
 

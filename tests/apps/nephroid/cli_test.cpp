@@ -10,16 +10,6 @@
 namespace nephroid {
 namespace {
 
-// Wrong input ends with status 2 and one line that holds `expected`.
-void expectWrong(const std::vector<std::string>& arguments, const std::string& expected) {
-  const ProgramResult result = runProgram(arguments);
-  EXPECT_EQ(result.status, 2) << result.errors;
-  EXPECT_TRUE(result.hasOneLineOfErrors()) << result.errors;
-  EXPECT_EQ(result.errors.rfind("nephroid: error: ", 0), 0u) << result.errors;
-  EXPECT_NE(result.errors.find(expected), std::string::npos) << result.errors;
-  EXPECT_EQ(result.output, "");
-}
-
 TEST(CommandLine, TellsItsVersionAndItsHelp) {
   const ProgramResult version = runProgram({"--version"});
   EXPECT_EQ(version.status, 0);
@@ -60,12 +50,9 @@ v = [0, 0, 1]
 resolution = [8, 8]
 )";
 
-class SceneCommand : public testing::Test {
+class SceneCommand : public ProgramTest {
  protected:
-  SceneCommand() { writeScene("scene.toml", kFloor); }
-  void writeScene(const char* name, const std::string& text) { std::ofstream(folder / name) << text; }
-  std::string at(const char* name) const { return (folder / name).string(); }
-  TemporaryFolder folder;
+  SceneCommand() { write("scene.toml", kFloor); }
 };
 
 TEST_F(SceneCommand, InfoSaysWhatASceneHolds) {
@@ -88,7 +75,7 @@ radius = 0.3
 vertices = 200
 translation = [0, 1, 0]
 )";
-  writeScene("ball.toml", kFloor + ball);
+  write("ball.toml", kFloor + ball);
   const std::string cache = "XDG_CACHE_HOME=" + folder.path().string();
   ASSERT_EQ(
       runProgram({"bake", at("ball.toml"), "-o", at("ball.tables"), "--directions", "33"}, cache).status, 0);
@@ -133,7 +120,7 @@ TEST_F(SceneCommand, TheSameCommandWritesTheSameBytes) {
 }
 
 TEST_F(SceneCommand, WrongInputLeavesNothingBehind) {
-  writeScene("broken.toml", "[camera\nposition = 1");
+  write("broken.toml", "[camera\nposition = 1");
   const auto measure = [&](std::vector<std::string> changed) {
     std::vector<std::string> arguments{"measure",  at("scene.toml"), "-o",          at("floor.exr"),
                                        "--source", "traced",         "--technique", "none"};

@@ -9,7 +9,6 @@
 
 #include "core/image_io.h"
 #include "panels.h"
-#include "support/run_program.h"
 #include "support/hidden_display.h"
 #include "support/run_program.h"
 #include "techniques/planes/settings.h"
