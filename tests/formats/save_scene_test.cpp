@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "formats/scene_toml.h"
 #include "scene/dispersion.h"
+#include "support/photons.h"
 #include "water/wave_simulation.h"
 
 namespace nephroid {
@@ -117,6 +118,8 @@ Scene changed(Scene scene) {
 }
 
 TEST(SavedScenes, LoadsTheScenesAsTheyWereChanged) {
+  if (kIsSanitized)
+    GTEST_SKIP() << "it takes minutes under the sanitizers, in code that other tests go through too";
   for (const fs::path& file : exampleScenes()) {
     SCOPED_TRACE(file.filename());
     // As many vertices as there are without asking: making more of them takes long, and saves no better.

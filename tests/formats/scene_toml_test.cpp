@@ -1,6 +1,7 @@
 #include "geometry/mesh_checks.h"
 #include "report/diagnose.h"
 #include "scene/framing.h"
+#include "support/photons.h"
 #include "support/scene_file.h"
 #include "support/shared_data.h"
 
@@ -300,6 +301,8 @@ TEST(Scene, LoadsWhatTheIndependentAnswersAreFor) {
 }
 
 TEST(Scene, LoadsTheScenesOfTheRepository) {
+  if (kIsSanitized)
+    GTEST_SKIP() << "it takes minutes under the sanitizers, in code that other tests go through too";
   for (const auto& entry :
        std::filesystem::directory_iterator(std::filesystem::path(NEPHROID_SOURCE_DIR) / "scenes")) {
     if (entry.path().extension() != ".toml") continue;

@@ -146,7 +146,7 @@ TEST(VolumetricCaustic, OfAPaneIsItsTransmittance) {
     scene.camera.verticalFov = 4;
     ReferenceSettings settings;
     settings.size = {8, 8};
-    settings.photons = 1 << 14;
+    settings.photons = photonsOf(1 << 14);
     const RayScene rays(scene);
     ReferenceImage image(scene, rays, settings);
     const SampleMean shafts = blockMeans(image, {"shafts.G"}, 96, 8).at(0).at(0);
@@ -161,7 +161,7 @@ TEST(VolumetricCaustic, OfAPaneIsItsTransmittance) {
     // Rays two degrees off the axis are longer by a part in two thousand.
     EXPECT_LT(std::abs(shafts.mean() - expected), 4 * shafts.standardError() + 5e-4 * expected)
         << shafts.mean() << ", not " << expected;
-    EXPECT_LT(shafts.standardError(), 0.02 * expected);
+    EXPECT_LT(shafts.standardError(), standardErrorOf(0.02) * expected);
   }
 }
 
@@ -189,7 +189,7 @@ Scene turbidPool(float size) {
 void expectInWater(const Scene& scene, uint32_t photons, glm::dvec3 expected) {
   ReferenceSettings settings;
   settings.size = {8, 8};
-  settings.photons = photons;
+  settings.photons = photonsOf(photons);
   settings.spectrum = Spectrum::channels;
   const RayScene rays(scene);
   ReferenceImage image(scene, rays, settings);
@@ -199,7 +199,7 @@ void expectInWater(const Scene& scene, uint32_t photons, glm::dvec3 expected) {
     // Balls of photons reach out of the water.
     EXPECT_LT(std::abs(nits.mean() - expected[c]), 4 * nits.standardError() + 0.01 * expected[c])
         << nits.mean() << ", not " << expected[c] << " in channel " << c;
-    EXPECT_LT(nits.standardError(), 0.08 * expected[c]);
+    EXPECT_LT(nits.standardError(), standardErrorOf(0.08) * expected[c]);
   }
 }
 

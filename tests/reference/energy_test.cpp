@@ -164,7 +164,7 @@ TEST(Reference, OfASeedIsTheSameWhateverTheThreads) {
   scene.camera.position = {1.5f, 0.5f, 1.8f};
   ReferenceSettings settings;
   settings.size = {64, 48};
-  settings.photons = 1 << 14;
+  settings.photons = photonsOf(1 << 14);
   const Sensor sensor = floorSensor({0, -2, 0}, 2, 32);
   const auto bothWith = [&](std::size_t threads, uint64_t seed) {
     const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);

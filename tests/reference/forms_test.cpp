@@ -22,7 +22,7 @@ Measured causticsOn(const Scene& scene, Sensor sensor, Paths paths, uint32_t pho
   sensor.resolution = {1, 1};
   ReferenceSettings settings;
   settings.paths = paths;
-  settings.photons = photons;
+  settings.photons = photonsOf(photons);
   const Image image = measured(scene, sensor, 32, settings);
   Measured result{};
   for (int c = 0; c < 3; ++c) {
@@ -40,7 +40,7 @@ void expectLux(const Measured& measured, glm::dvec3 expected) {
     EXPECT_LT(error, 4 * measured.standardError[c] + 1e-5 * expected[c])
         << measured.lux[c] << ", not " << expected[c] << " in channel " << c;
     // So few photons would show nothing.
-    EXPECT_LT(measured.standardError[c], 0.01 * expected[c]);
+    EXPECT_LT(measured.standardError[c], standardErrorOf(0.01) * expected[c]);
   }
 }
 

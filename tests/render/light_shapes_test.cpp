@@ -54,7 +54,7 @@ void expectAsReference(const Scene& scene) {
       measureBeams(scene, rays, source, sensor, Paths::transmission, 2, progress, stats);
   ReferenceSettings settings;
   settings.paths = Paths::transmission;
-  settings.photons = 1 << 17;
+  settings.photons = photonsOf(1 << 17);
   ReferenceSensor meter(scene, rays, sensor, settings);
   const auto means =
       blockMeans(meter, {"direct.R", "direct.B", "caustics.R", "caustics.B"}, kPasses, kTexelsOfBlock);

@@ -8,6 +8,7 @@
 #include "geometry/shapes.h"
 #include "reference/image.h"
 #include "reference/sensor.h"
+#include "support/photons.h"
 #include "support/statistics.h"
 
 namespace nephroid {
