@@ -5,6 +5,8 @@ build() {
   local folder=$1 target=$2 said
   shift 2
   local options=("$@")
+  # Clones share what ccache holds, files with precompiled headers too.
+  export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
   if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
   said=$(cmake -S . -B "$folder" -G Ninja "${options[@]}" 2>&1) || { echo "$said" >&2; return 1; }
   cmake --build "$folder" --target "$target" --parallel "$(nproc)"

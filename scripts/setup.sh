@@ -17,7 +17,7 @@ packages=(
   glmark2-data                                  # the bunny, the cat and the horse
 )
 if [ "${1:-}" = tests ]; then
-  packages+=(libgtest-dev libbenchmark-dev vulkan-validationlayers clang clang-format clang-tidy libclang-rt-dev
+  packages+=(libgtest-dev libbenchmark-dev vulkan-validationlayers clang clang-format clang-tidy libclang-rt-dev ccache
              xvfb xdotool twm x11-utils)
   # Opens a report in a test, which is skipped without it: Ubuntu's package is a snap, which containers do not run.
   if grep -qsx 'ID=debian' /etc/os-release; then packages+=(chromium); fi
