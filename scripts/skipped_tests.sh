@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# skipped_tests.sh BUILD_FOLDER: how many tests the last run of ctest ran there, and which it skipped for which reason.
+# skipped_tests.sh BUILD_FOLDER: how many tests the last run of ctest had there, and which it skipped for which reason.
 set -euo pipefail
 shopt -s nullglob
 reports=("$1"/tests/reports/*.xml)
@@ -17,6 +17,6 @@ awk '
     skipped[++count] = suite "." test ": " why
   }
   END {
-    printf "\n%d tests ran, %d of them were SKIPPED%s\n", ran, count, count ? ":" : ""
+    printf "\n%d tests, %d of them SKIPPED%s\n", ran, count, count ? ":" : ""
     for (i = 1; i <= count; ++i) print "  SKIPPED " skipped[i]
   }' "${reports[@]}"
