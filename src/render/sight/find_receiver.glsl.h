@@ -1,6 +1,7 @@
-// Where a ray meets a receiver, found in images of the receivers. What an image shows at a texel is taken as
-// the tangent plane of a surface; the ray meets that plane next to another texel, and so on: exact on flat
-// receivers whatever the size of a texel.
+// Where a ray meets a receiver, found in images of the receivers, from tangent plane to tangent plane
+// (geometry/tangent_plane.h).
+#include "geometry/tangent_plane.h"
+
 #include "render/sight/slice_texel.glsl.h"
 
 struct FoundReceiver {
@@ -49,14 +50,16 @@ FoundReceiver findNear(SightRay ray, float distance, vec2 range, SightLayer from
     const vec2 center = floor(place) + 0.5;
     const vec2 slope = (center / from.size * 2 - 1) / frame.scale;
     const vec3 point = frame.apex + depth * (frame.axisW + slope.x * frame.axisU + slope.y * frame.axisV);
-    const float approach = dot(ray.direction, normal);
-    distance = dot(point - ray.origin, normal) / approach;
-    const vec3 meeting = ray.origin + distance * ray.direction;
-    if (!(distance >= range.x && distance <= range.y) || dot(meeting - frame.apex, frame.axisW) <= 0)
+    // From the ray's origin: it may be far from the scene's, and then few digits would be left.
+    const PlaneMeeting meeting =
+        meetTangentPlane(vec3(0), ray.direction, tangentPlane(point - ray.origin, normal));
+    distance = meeting.distance;
+    const vec3 met = ray.origin + distance * ray.direction;
+    if (!(distance >= range.x && distance <= range.y) || dot(met - frame.apex, frame.axisW) <= 0)
       return kNothing;
-    place = placeInFrame(from, meeting);
+    place = placeInFrame(from, met);
     if (all(lessThan(abs(place - center), vec2(i < kStepsToPlane - 1 ? 0.75 : 1.5))))
-      return FoundReceiver(distance, approach > 0 ? -normal : normal, texel);
+      return FoundReceiver(distance, meeting.approach < 0 ? -normal : normal, texel);
   }
   return kNothing;
 }

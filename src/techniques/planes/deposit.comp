@@ -15,14 +15,11 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 #include "techniques/planes/shader_data.h"
 
-#include "techniques/planes/receiver_normal.glsl.h"
-
 layout(constant_id = 0) const uint kChannels = 3;
 layout(constant_id = 1) const uint kFollowsReceivers = 1;
 // Light goes along axisW, give or take: where nobody knows what it meets first, that is what the virtual
 // camera sees.
 layout(constant_id = 2) const uint kGoesAlongAxis = 1;
-const int kStepsToReceiver = kGoesAlongAxis != 0 ? 4 : 6;
 layout(local_size_x_id = 3) in;
 layout(push_constant, scalar) uniform Constants {
   DepositConstants constants;
@@ -31,93 +28,7 @@ uniform texture2DArray seenDepths;    // by the virtual camera, a layer a window
 uniform utexture2DArray seenNormals;  // as receiver_normal.glsl.h packs them
 layout(r32ui) uniform uimage2DArray textures;
 
-// A corner ray in the virtual camera's frame: metres along axisU, axisV and axisW.
-struct Ray {
-  vec3 start;
-  vec3 direction;  // unit
-};
-
-Ray rayOf(vec3 position, vec3 direction) {
-  const mat3 axes = mat3(constants.set.axisU, constants.set.axisV, constants.set.axisW);
-  return Ray(position * axes, direction * axes);
-}
-
-// m along the ray; far off where it runs along the planes.
-float distanceToDepth(Ray ray, float depth) {
-  const float approach = ray.direction.z;
-  return (depth - ray.start.z) / (approach < 0 ? min(approach, -1e-4) : max(approach, 1e-4));
-}
-
-// Where a ray meets what the virtual camera sees.
-struct Arrival {
-  float distance;  // m along the ray
-  bool isSeen;     // there, and not only near what would be there
-  vec4 plane;      // tangent there: a point of it times the first three is the fourth
-};
-
-// The normal is as receiver_normal.glsl.h has it.
-vec4 tangentPlane(vec3 point, vec3 normal) {
-  const vec3 outward = vec3(normal.xy, -normal.z);
-  return vec4(outward, dot(outward, point));
-}
-
-// Takes the tangent plane of what is seen next to where the ray is by now, again and again. One step is exact
-// on a flat receiver.
-Arrival arrivalOf(Ray ray, float reach) {
-  const PlaneSet set = constants.set;
-  const float range = set.farthestDepth - set.nearestDepth;
-  const float toNearest = distanceToDepth(ray, set.nearestDepth),
-              toFarthest = distanceToDepth(ray, set.farthestDepth);
-  const float nearest = max(min(toNearest, toFarthest), 0), farthest = max(max(toNearest, toFarthest), 0);
-  const vec2 center = set.windows[0].corner + 0.5 * set.windows[0].size / set.windows[0].texelsPerMetre;
-  const float middle = set.firstDepth + 0.5 * float(set.planes - 1) * set.depthStep;
-  float distance = abs(ray.direction.z) >= kLeastPlaneApproach
-                       ? distanceToDepth(ray, middle)
-                       : dot(vec3(center, middle) - ray.start, ray.direction);
-  const bool isReachKnown = reach < kUnboundedReach;
-  if (isReachKnown) distance = reach;
-  distance = clamp(distance, nearest, farthest);
-  float toSeen = distance;  // to the last tangent plane of what was seen
-  vec4 plane = vec4(0, 0, -1, -middle);
-  float change, metresPerTexel;
-  int step = 0;
-  bool isSeen, isLit, isThere;
-  do {
-    const vec3 point = ray.start + distance * ray.direction;
-    uint window = 0;
-    vec2 place = texelOfWindow(set.windows[0], point.xy);
-    if (any(lessThan(place, vec2(0))) || any(greaterThanEqual(place, vec2(set.windows[0].size)))) {
-      window = 1;
-      place = texelOfWindow(set.windows[1], point.xy);
-    }
-    metresPerTexel = 1 / set.windows[window].texelsPerMetre;
-    const vec2 texel = clamp(floor(place), vec2(0), vec2(set.windows[window].size - 1));
-    const float seen = texelFetch(seenDepths, ivec3(texel, window), 0).r;
-    const vec3 normal = unpackedNormal(texelFetch(seenNormals, ivec3(texel, window), 0).r);
-    const float seenDepth = set.nearestDepth + seen * range;
-    const vec4 next =
-        tangentPlane(vec3(point.xy - (place - texel - 0.5) * metresPerTexel, seenDepth), normal);
-    // How far the ray stands from it, and how fast it comes nearer.
-    const float ahead = dot(next.xyz, point) - next.w;
-    const float approach = -dot(next.xyz, ray.direction);
-    isLit = approach > (kGoesAlongAxis != 0 ? 0.1 * ray.direction.z * normal.z : 0.02 * length(normal));
-    const float toPlane = isLit ? distance + ahead / approach : distanceToDepth(ray, seenDepth);
-    isSeen = seen < 1;
-    if (isSeen) plane = next;
-    if (isSeen) toSeen = clamp(toPlane, nearest, farthest);
-    change = abs(toSeen - distance);
-    isThere = isSeen && change < 1e-4 * metresPerTexel;
-    // Past the receivers' edge, or the window's: they are nearer to where the ray comes from.
-    distance = isSeen ? toSeen : 0.5 * (distance + nearest);
-  } while (!isThere && ++step < kStepsToReceiver);
-  // A ray that passes a receiver by goes as far as the others of its beam.
-  if (!isSeen) distance = toSeen;
-  const float tolerance = 2 * metresPerTexel + 1e-3 * range;
-  const bool isMet = isSeen && isLit && change <= tolerance;
-  if (isReachKnown)
-    return Arrival(distance, isMet && abs(distance - reach) <= 0.01 * reach + tolerance, plane);
-  return Arrival(distance, isMet || kGoesAlongAxis != 0, plane);
-}
+#include "techniques/planes/arrival.glsl.h"
 
 // Where a beam's corners are, m along the axes, on a plane or next to it.
 struct Crossing {
@@ -146,7 +57,7 @@ float reachOf(uint window) {
 // surface on which the others arrive: one beam may meet several receivers.
 vec3 distancesNear(float low, float high, Ray rays[3], Arrival arrivals[3]) {
   bvec3 isWithin;
-  vec4 surface = vec4(0);
+  TangentPlane surface = TangentPlane(vec3(0), 0);
   for (int i = 2; i >= 0; --i) {
     const float depth = rays[i].start.z + arrivals[i].distance * rays[i].direction.z;
     isWithin[i] = depth >= low && depth <= high && arrivals[i].isSeen;
@@ -155,12 +66,10 @@ vec3 distancesNear(float low, float high, Ray rays[3], Arrival arrivals[3]) {
   vec3 distances;
   for (int i = 0; i < 3; ++i) {
     const float depth = rays[i].start.z + arrivals[i].distance * rays[i].direction.z;
-    const float approach = -dot(surface.xyz, rays[i].direction);
-    const float toSurface = (dot(surface.xyz, rays[i].start) - surface.w) / approach;
+    const PlaneMeeting meeting = meetTangentPlane(rays[i].start, rays[i].direction, surface);
     const float toBand = distanceToDepth(rays[i], clamp(depth, low, high));
-    distances[i] = isWithin[i]                         ? arrivals[i].distance
-                   : approach > 1e-2 && toSurface >= 0 ? toSurface
-                                                       : max(toBand, 0);
+    const bool isAhead = meeting.approach > 1e-2 && meeting.distance >= 0;
+    distances[i] = isWithin[i] ? arrivals[i].distance : isAhead ? meeting.distance : max(toBand, 0);
   }
   return distances;
 }
