@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Whether two builds of nephroid make the same pictures and the same figures, to the byte. Renders each scene, as PNG and
 # as EXR, and measures at each of its sensors, by every technique of the first program and by the reference. Of an EXR
-# its pixels are compared, not the settings written beside them. Says what differs; exits 1 where something does.
+# its pixels are compared, not the settings written beside them. Says what differs; exits 1 where something does. Each program has
+# a cache of its own, empty at first: neither is shown what the other one made, nor what an earlier run did.
 #   scripts/same_bytes.sh BEFORE AFTER [SCENE ...]     programs; all of scenes/ where none is given
 set -uo pipefail
 if [ $# -lt 2 ] || [ ! -x "$1" ] || [ ! -x "$2" ]; then
@@ -20,7 +21,7 @@ cd "$(dirname "$0")/.."
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir "$work/0" "$work/1"
+mkdir -p "$work"/{,cache/}{0,1}
 export LC_ALL=C
 
 # Few light samples and photons, so that a volume takes a moment.
@@ -57,7 +58,7 @@ check() {
   local name=$1 status=(0 0) running=()
   shift
   for i in 0 1; do
-    "${programs[i]}" "$@" -o "$work/$i/$name" --quiet >/dev/null 2>"$work/$i/said" &
+    XDG_CACHE_HOME="$work/cache/$i" "${programs[i]}" "$@" -o "$work/$i/$name" --quiet >/dev/null 2>"$work/$i/said" &
     running[i]=$!
   done
   for i in 0 1; do wait "${running[i]}" || status[i]=$?; done
