@@ -14,7 +14,7 @@ VkResult VKAPI_PTR loseTheDevice(VkQueue, uint32_t, const VkSubmitInfo2*, VkFenc
 }
 
 TEST_F(ViewSteps, ALostDeviceIsMadeAnewAndNothingElseIsLost) {
-  const fs::path file = written("ball.toml", kBall);
+  const fs::path file = written("ball.toml", kBallInView);
   ASSERT_TRUE(opens(file));
   moveFirstLight(viewer());
   const ByteImage before = viewer().picture();
@@ -31,7 +31,8 @@ TEST_F(ViewSteps, ALostDeviceIsMadeAnewAndNothingElseIsLost) {
   for (int i = 0; i < 5; ++i) stepNow(viewer());
   EXPECT_FALSE(hasPicture());
   EXPECT_TRUE(viewer().save());
-  EXPECT_NE(loadScene(file).lights[0].position, loadScene(written("first.toml", kBall)).lights[0].position);
+  EXPECT_NE(loadScene(file).lights[0].position,
+            loadScene(written("first.toml", kBallInView)).lights[0].position);
   moveFirstLight(viewer());
   EXPECT_TRUE(stepUntil(hasPicture));
 }
@@ -58,7 +59,7 @@ class Variable {
 };
 
 TEST_F(ViewSteps, WhereNoDeviceIsLeftWhatWasNotSavedIsInAFileBesideIt) {
-  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  ASSERT_TRUE(opens(written("ball.toml", kBallInView)));
   moveFirstLight(viewer());
   const vec3 moved = state().scene.lights[0].position;
   vkQueueSubmit2 = loseTheDevice;
@@ -70,7 +71,7 @@ TEST_F(ViewSteps, WhereNoDeviceIsLeftWhatWasNotSavedIsInAFileBesideIt) {
     EXPECT_NE(std::string(failure.what()).find("ball-unsaved.toml"), std::string::npos) << failure.what();
   }
   viewer_.reset();
-  EXPECT_EQ(readAll(folder_ / "ball.toml"), kBall);
+  EXPECT_EQ(readAll(folder_ / "ball.toml"), kBallInView);
   EXPECT_EQ(loadScene(folder_ / "ball-unsaved.toml").lights[0].position, moved);
 }
 
@@ -97,7 +98,7 @@ int frameCount() {
 // switched: after each round of them the device holds what it held after the first, which grows buffers to
 // what the largest frame needs.
 TEST_F(ViewSteps, FramesLeaveNothingBehind) {
-  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  ASSERT_TRUE(opens(written("ball.toml", kBallInView)));
   const uvec2 size = viewer().window().size();
   const vec3 place = state().scene.lights[0].position;
   GLFWwindow* window = viewer().window().handle();
@@ -134,7 +135,7 @@ TEST_F(ViewSteps, GoesOnWhereItWasWhenItIsNoLongerMinimised) {
               "ResizeFont \"fixed\"\nIconManagerFont \"fixed\"\n");
   const Process manager({"twm", "-f", settings.string()}, {"DISPLAY=" + display_}, folder_.path(),
                         folder_ / "twm");
-  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  ASSERT_TRUE(opens(written("ball.toml", kBallInView)));
   GLFWwindow* window = viewer().window().handle();
   // The manager may not be there yet.
   ASSERT_TRUE(stepUntil([&] {
@@ -151,7 +152,7 @@ TEST_F(ViewSteps, GoesOnWhereItWasWhenItIsNoLongerMinimised) {
 
 TEST_F(ViewSteps, RecordsWhatIsSeenAsAVideo) {
   state().settings.technique.technique = "none";
-  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  ASSERT_TRUE(opens(written("ball.toml", kBallInView)));
   hands().key(GLFW_KEY_V);
   if (!isInstalled("ffmpeg")) {
     EXPECT_NE(state().message.text.find("install package ffmpeg"), std::string::npos) << state().message.text;

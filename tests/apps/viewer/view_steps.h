@@ -9,6 +9,7 @@
 
 #include "core/image_io.h"
 #include "panels.h"
+#include "support/ball_in_view.h"
 #include "support/hidden_display.h"
 #include "support/run_program.h"
 #include "techniques/planes/settings.h"
@@ -20,36 +21,6 @@ namespace nephroid {
 namespace fs = std::filesystem;
 
 inline constexpr uvec2 kSize{96, 72};
-
-inline constexpr const char* kBall = R"([camera]
-position = [0, 1.5, 3]
-target = [0, 0.4, 0]
-exposure = 0.22
-[environment]
-ambient = 1.2
-[[material]]
-name = "glass"
-type = "dielectric"
-[[material]]
-name = "floor"
-type = "diffuse"
-[[object]]
-name = "floor"
-shape = "plane"
-size = [6, 6]
-material = "floor"
-[[object]]
-name = "ball"
-shape = "sphere"
-radius = 0.5
-vertices = 200
-material = "glass"
-translation = [0, 0.8, 0]
-[[light]]
-type = "point"
-position = [0.6, 1.5, 0.4]
-intensity = 20
-)";
 
 inline constexpr const char* kPool = R"([camera]
 position = [0, 2.5, 0.5]

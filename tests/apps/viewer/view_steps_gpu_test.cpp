@@ -38,7 +38,7 @@ TEST_F(ViewSteps, AClickOnWaterDropsAStoneThatIsSavedWithTheScene) {
 }
 
 TEST_F(ViewSteps, EachDragOfTheCameraIsTakenBackByItself) {
-  const fs::path file = written("ball.toml", kBall);
+  const fs::path file = written("ball.toml", kBallInView);
   state().settings.technique.technique = "none";
   ASSERT_TRUE(opens(file));
   const Camera first = state().scene.camera;
@@ -116,7 +116,7 @@ TEST_F(ViewSteps, OpensEachSceneAndItsPictureFollowsTheLight) {
 
 TEST_F(ViewSteps, WhatIsDroppedIsOpenedOrAddedOrTheWindowSaysWhyNot) {
   state().settings.technique.technique = "none";
-  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  ASSERT_TRUE(opens(written("ball.toml", kBallInView)));
   hands().drop(written("picture.jpg", ""));
   stepNow(viewer());
   EXPECT_NE(state().message.text.find("what can be dropped"), std::string::npos);
@@ -127,7 +127,7 @@ TEST_F(ViewSteps, WhatIsDroppedIsOpenedOrAddedOrTheWindowSaysWhyNot) {
       written("tent.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
   ASSERT_TRUE(stepUntil([&] { return state().scene.objects.size() == 3; }));
   EXPECT_FALSE(viewer().isSaved());
-  hands().drop(written("other.toml", kBall));
+  hands().drop(written("other.toml", kBallInView));
   stepNow(viewer());
   ASSERT_TRUE(state().question);
   state().question->answer = Question::Answer::cancel;
@@ -137,7 +137,7 @@ TEST_F(ViewSteps, WhatIsDroppedIsOpenedOrAddedOrTheWindowSaysWhyNot) {
 
 // In the frame that takes it in.
 TEST_F(ViewSteps, WhatAHandDoesIsSeenInTheNextFrame) {
-  ASSERT_TRUE(opens(written("ball.toml", kBall)));
+  ASSERT_TRUE(opens(written("ball.toml", kBallInView)));
   const vec2 from = *pixelOf(state().scene.camera, kSize, state().scene.lights[0].position);
   hands().moveTo(from);
   stepNow(viewer());

@@ -9,6 +9,7 @@
 
 #include "core/image_io.h"
 #include "formats/load.h"
+#include "support/ball_in_view.h"
 #include "support/hidden_display.h"
 #include "support/run_program.h"
 #include "viewer/picking.h"
@@ -26,48 +27,11 @@ const std::vector<std::string> kQuick{"--texture-size",        "64",     "--dire
                                       "--light-level",         "0",      "--volume-photons", "1",
                                       "--light-interpolation", "nearest"};
 
-constexpr const char* kScene = R"(# A ball over a floor
-[camera]
-position = [0, 1.5, 3]
-target = [0, 0.4, 0]
-exposure = 0.22
-
-[environment]
-ambient = 1.2
-
-[[material]]
-name = "glass"
-type = "dielectric"
-
-[[material]]
-name = "floor"
-type = "diffuse"
-
-[[object]]
-name = "floor"
-shape = "plane"
-size = [6, 6]
-material = "floor"
-
-[[object]]
-name = "ball"
-shape = "sphere"
-radius = 0.5
-vertices = 400
-material = "glass"
-translation = [0, 0.8, 0]
-
-[[light]] # moved by hand
-type = "point"
-position = [0.6, 1.5, 0.4]
-intensity = 20
-)";
-
 class ViewWindow : public HiddenDisplayTest {
  protected:
   void SetUp() override {
     HiddenDisplayTest::SetUp();
-    std::ofstream(folder_ / "scene.toml") << kScene;
+    std::ofstream(folder_ / "scene.toml") << kBallInView;
   }
 
   std::unique_ptr<Process> view(const std::vector<std::string>& arguments, uvec2 size = kSize) const {
@@ -187,7 +151,7 @@ TEST_F(ViewWindow, AsksBeforeChangesAreLost) {
   ASSERT_TRUE(becomes("^scene.toml\\* - none", *process));
   type("key ctrl+q sleep 0.5");
   EXPECT_TRUE(process->isRunning());
-  EXPECT_EQ(readAll(folder_ / "scene.toml"), kScene);
+  EXPECT_EQ(readAll(folder_ / "scene.toml"), kBallInView);
   type("key Escape sleep 0.3 key ctrl+z");
   ASSERT_TRUE(becomes("^scene.toml - none", *process));
   type("key ctrl+q");
@@ -200,7 +164,7 @@ TEST_F(ViewWindow, GoesWithTheFileAndSaysWhatIsWrongWithIt) {
   std::ofstream(folder_ / "scene.toml") << "[camera\n";
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   EXPECT_TRUE(process->isRunning());
-  std::string brighter = kScene;
+  std::string brighter = kBallInView;
   brighter.replace(brighter.find("exposure = 0.22"), 15, "exposure = 0.90");
   std::ofstream(folder_ / "scene.toml") << brighter;
   render("none");
