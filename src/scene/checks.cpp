@@ -301,13 +301,22 @@ void checkGrid(const DensityGrid& grid) {
   part.allWithin("density", grid.densities, 0, 1);
 }
 
+void checkPlacedObjects(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) checkObject(scene.objects[i], i, scene);
+}
+
+void checkMeshes(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+    checkMesh(scene.meshes[i], Part{"mesh", &scene.meshes[i].name, i}.label());
+}
+
 // What is checked at each frame.
 void checkMoving(const Scene& scene) {
   if (!std::isfinite(scene.time)) throw InputError("time is not finite; it must be a number of seconds");
   checkCamera(scene.camera);
   checkEnvironment(scene.environment);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) checkMaterial(scene.materials[i], i, scene);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) checkObject(scene.objects[i], i, scene);
+  checkPlacedObjects(scene);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) checkLight(scene.lights[i], i, scene);
   if (scene.medium) checkMedium(*scene.medium);
 }
@@ -322,14 +331,18 @@ void requireAsMany(const char* what, std::size_t now, std::size_t before) {
 
 void checkScene(const Scene& scene) {
   checkMoving(scene);
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-    checkMesh(scene.meshes[i], Part{"mesh", &scene.meshes[i].name, i}.label());
+  checkMeshes(scene);
   for (std::size_t i = 0; i < scene.textures.size(); ++i) checkTexture(scene.textures[i], i);
   for (std::size_t i = 0; i < scene.profiles.size(); ++i) checkProfile(scene.profiles[i], i);
   for (std::size_t i = 0; i < scene.skies.size(); ++i) checkSky(scene.skies[i], i);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) checkHasParts(scene.lights[i], i, scene);
   if (scene.medium && scene.medium->grid) checkGrid(*scene.medium->grid);
   for (const Sensor& sensor : scene.sensors) checkSensor(sensor);
+}
+
+void checkObjects(const Scene& scene) {
+  checkPlacedObjects(scene);
+  checkMeshes(scene);
 }
 
 void checkMoved(const Scene& scene, const Scene& before) {

@@ -11,6 +11,10 @@ namespace nephroid {
 // would be right. Takes some ns for each vertex, texel and cell.
 void checkScene(const Scene& scene);
 
+// Its objects alone and their meshes: all that says how much room they take. Takes some ns for each vertex.
+// Throws InputError.
+void checkObjects(const Scene& scene);
+
 // What of a scene may change from one frame to the next: camera, environment, materials, lights, where
 // objects stand and the shape of water. `before`: the scene that it was, which has the same meshes, objects
 // and materials. Takes some tens of ns for each object, material and light. Throws InputError.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/bounds.h"
+#include "scene/checks.h"
 
 namespace nephroid {
 
@@ -25,6 +26,7 @@ vec3 upFor(vec3 view) {
 }
 
 Camera framingCamera(const Scene& scene) {
+  checkObjects(scene);
   Camera camera;
   const Box bounds = boundsOfInterest(scene);
   if (bounds.isEmpty()) return camera;

@@ -16,7 +16,8 @@ Box boundsOfInterest(const Scene& scene);
 // Up along y, unless the view (any length) runs along it.
 vec3 upFor(vec3 view);
 
-// A camera that sees, from the front and above, all casters, or all objects where there are none.
+// A camera that sees, from the front and above, all casters, or all objects where there are none. Throws
+// InputError as checkObjects does.
 Camera framingCamera(const Scene& scene);
 
 }  // namespace nephroid

@@ -10,6 +10,7 @@
 #include "geometry/shapes.h"
 #include "lights/sky.h"
 #include "report/diagnose.h"
+#include "scene/framing.h"
 #include "transport/scene_transport.h"
 
 namespace nephroid {
@@ -254,6 +255,23 @@ TEST(SceneChecks, StandAtTheDoors) {
     expectSays(errorOf([&] { transport.place(scene); }), mistake.says);
   }
   EXPECT_NO_THROW(transport.place(right));
+}
+
+// A camera is asked for while there may be none that is right, nor lights.
+TEST(SceneChecks, OfObjectsAloneStandBeforeACameraThatFramesThem) {
+  int wrongObjects = 0;
+  for (const std::vector<Mistake>& mistakes : {kMoving, kStanding})
+    for (const Mistake& mistake : mistakes) {
+      Scene scene = fullScene();
+      mistake.make(scene);
+      const bool isOfObjects = mistake.says.starts_with("object") || mistake.says.starts_with("mesh");
+      wrongObjects += isOfObjects;
+      if (isOfObjects)
+        expectSays(errorOf([&] { framingCamera(scene); }), mistake.says);
+      else
+        EXPECT_NO_THROW(framingCamera(scene)) << mistake.says;
+    }
+  EXPECT_GE(wrongObjects, 20);
 }
 
 }  // namespace
