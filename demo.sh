@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From nothing to a picture: installs what is missing, builds, and renders the bunny in coloured glass.
+# From nothing to a picture: installs what is missing, builds, and renders the bunny in colored glass.
 set -euo pipefail
 cd "$(dirname "$0")"
 . scripts/build.sh

@@ -32,6 +32,9 @@ scripts/setup.sh tests
 step "Who may include whom"
 scripts/check_includes.sh
 
+step "Opening comments of headers"
+scripts/check_headers.sh
+
 step "Format"
 scripts/check_format.sh
 

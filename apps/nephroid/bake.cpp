@@ -65,7 +65,7 @@ void addLightRange(CLI::App& command, BakeRequest& request) {
             request.first = pair->x;
             request.end = pair->y;
           },
-          "Light samples A to B - 1 of an irradiance volume alone: a part, for --merge")
+          "Bake only the light samples A to B - 1 of irradiance volumes; parts are joined with --merge")
       ->type_name("A:B");
 }
 
@@ -74,13 +74,13 @@ void addLightRange(CLI::App& command, BakeRequest& request) {
 Command addBake(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "bake",
-      "The light transport tables of a scene, or its irradiance volumes, in a file for --baked. They hold "
-      "wherever casters, receivers, lights and camera are moved to");
+      "Writes the light transport tables of a scene, or its irradiance volumes, to a file for --baked. They "
+      "stay valid when casters, receivers, lights and camera move");
   const auto options = std::make_shared<BakeOptions>();
   command->add_option("SCENE", options->scene, "The scene: a .toml, .gltf or .glb file")->type_name("");
   addOutput(*command, options->output, "The file to write");
   std::vector<std::string> names{options->technique.technique};
-  std::string help = "What is baked: light transport tables for " + names[0];
+  std::string help = "The technique to bake for: light transport tables for " + names[0];
   for (const TechniqueInfo* info : bakers()) {
     names.emplace_back(info->name);
     help += std::string(", ") + info->bake.what + " for " + info->name;
@@ -94,8 +94,9 @@ Command addBake(CLI::App& program) {
       if (setting.isBaked) addSetting(*command, setting, view.values, view.owner);
   addLightRange(*command, options->request);
   command
-      ->add_option("--merge", options->parts,
-                   "Irradiance volumes baked by --light-range, to be joined in place of baking a scene")
+      ->add_option(
+          "--merge", options->parts,
+          "Instead of baking a scene: join files of irradiance volumes that were baked with --light-range")
       ->type_name("PART...");
   addQuiet(*command, options->isQuiet);
   return {command, [options] { runBake(*options); }};

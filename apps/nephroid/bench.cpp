@@ -30,22 +30,23 @@ void runBench(const BenchOptions& options) {
 }  // namespace
 
 Command addBench(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("bench", "The papers' tables measured here, theirs beside ours");
+  CLI::App* command = program.add_subcommand(
+      "bench", "Measures the papers' tables on this machine, beside the papers' own figures");
   const auto options = std::make_shared<BenchOptions>();
-  command->add_option("NAME", options->names, "Which: " + joined(paperTableNames()) + ". Left out: all")
+  command
+      ->add_option("NAME", options->names,
+                   "The tables: " + joined(paperTableNames()) + ". Without a name: all")
       ->check(oneOf(paperTableNames()))
       ->type_name("");
-  command->add_option("--json", options->json, "Where to write the figures as JSON as well")
-      ->type_name("FILE");
+  command->add_option("--json", options->json, "Where to write the figures as JSON, too")->type_name("FILE");
   command
-      ->add_option(
-          "--scenes", options->bench.scenes,
-          "The folder of the papers' scenes. Left out: scenes/ of the source tree that the program is in, or "
-          "where it was installed")
+      ->add_option("--scenes", options->bench.scenes,
+                   "The folder of the papers' scenes. Without it: scenes/ of the source tree that holds the "
+                   "program, or the installed scenes")
       ->type_name("DIR");
   command
       ->add_option("--curves", options->bench.curves,
-                   "Where to write the error and time of paper-4 against its planes, as SVG")
+                   "Where to write a chart of paper-4 as SVG: error and time by the number of planes")
       ->type_name("FILE.svg");
   addDevice(*command, options->bench.device);
   addQuiet(*command, options->isQuiet);

@@ -1,4 +1,4 @@
-// A command of the program: its options, then what it does with them.
+// The commands of the program, and the options that several of them share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,13 +16,13 @@
 
 namespace nephroid {
 
-// `run` is called after the whole command line is understood.
+// `run` does the work. It is called after the whole command line has been parsed.
 struct Command {
   const CLI::App* app;
   std::function<void()> run;
 };
 
-// Each declares its options on a subcommand of `program`.
+// Each of these adds one subcommand with its options to `program`.
 Command addRender(CLI::App& program);
 Command addMeasure(CLI::App& program);
 Command addBake(CLI::App& program);
@@ -32,12 +32,12 @@ Command addInfo(CLI::App& program);
 Command addHelp(CLI::App& program);
 Command addView(CLI::App& program);
 
-// What most commands share.
+// The options that most commands share.
 struct CommonOptions {
   std::filesystem::path scene;
   std::filesystem::path output;
   std::filesystem::path stats;  // empty: none
-  std::string device;           // empty: the best there is
+  std::string device;           // index or part of a name; empty: the best device
   double time = 0;              // s
   uint32_t repeat = 1;
   bool isQuiet = false;
@@ -51,28 +51,31 @@ void addDevice(CLI::App& command, std::string& device);
 void addQuiet(CLI::App& command, bool& isQuiet);
 void addRepeat(CLI::App& command, uint32_t& repeat);
 void addStats(CLI::App& command, std::filesystem::path& stats);
-// `takesWord`: the setting's word for zero is taken too. `owner` outlives the command line.
+// Adds an option for each setting. With `takesWord` the option also accepts the setting's word for zero.
+// `owner` is the struct that holds the value; it must outlive `command`.
 void addSetting(CLI::App& command, const Setting& setting, void* owner, const std::string& group,
                 bool takesWord = false);
 void addSettings(CLI::App& command, std::span<const SettingsView> views, bool takesWord = false);
-// Which technique, and the settings of every owner that a picture, or a sensor, depends on.
+// Adds --technique and all settings that a picture (or, in the second function, a sensor) depends on.
 void addTechnique(CLI::App& command, PictureSettings& settings);
 void addTechniqueOfSensor(CLI::App& command, PictureSettings& settings);
-// The settings alone.
+// Adds these settings without --technique.
 void addPictureSettings(CLI::App& command, PictureSettings& settings);
 
-// Throws, before any work is done, where `file` cannot be written, ends in none of `extensions` (none given:
-// any will do) or is the scene itself.
+// Checks an output file before any work is done. Throws InputError or RuntimeFailure where `file` cannot be
+// written, is the scene itself, or has none of the `extensions`. Without `extensions` any extension is
+// accepted.
 void checkOutput(const std::filesystem::path& file, const std::filesystem::path& scene,
                  std::initializer_list<const char*> extensions = {});
 
-// For CLI11's check(): empty where the value is one of `names`, or else what is wrong and which is nearest.
+// A check for CLI11. It returns an empty text where the value is one of `names`; otherwise it returns the
+// error message, with the nearest name.
 std::function<std::string(const std::string&)> oneOf(std::vector<std::string> names);
 
-// "A<separator>B", both whole numbers; empty where it is not that.
+// Reads two whole numbers from "A<separator>B". Empty where `text` has another form.
 std::optional<uvec2> pairOf(const std::string& text, char separator);
 
-// The truth for the techniques, which runs without them and is chosen by --technique as they are.
+// The reference is not a technique, but users choose it with --technique too.
 inline constexpr const char* kReferenceName = "reference";
 bool isReference(const PictureSettings& settings);
 
@@ -82,11 +85,11 @@ std::vector<std::string> techniqueList();
 // "a, b, c".
 std::string joined(const std::vector<std::string>& names, const std::string& between = ", ");
 
-// The program and its arguments as a shell would be given them.
+// The program and its arguments, quoted for a shell.
 const std::string& commandLine();
 
-// What an EXR says of how it was made. Neither a time nor a place, so that the same command writes the same
-// bytes.
+// The attributes of an EXR that tell how it was made. They contain no date and no folder, so that the same
+// command writes the same bytes.
 std::vector<ImageAttribute> imageAttributes(const PictureSettings& settings, const std::string& unit);
 
 void writeStats(const std::filesystem::path& file, const Stats& stats);

@@ -157,8 +157,9 @@ void addTechniques(CLI::App& command, std::vector<std::string>& chosen) {
   const std::vector<std::string> names = comparedTechniques();
   chosen = names;
   command
-      .add_option("--techniques", chosen,
-                  "Which to compare, separated by commas: " + joined(names) + ". Left out: all of them")
+      .add_option(
+          "--techniques", chosen,
+          "The techniques to compare, separated by commas: " + joined(names) + ". Without it: all of them")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(oneOf(names))
@@ -178,14 +179,14 @@ std::vector<std::string> inOrder(const std::vector<std::string>& chosen) {
 
 Command addCompare(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "compare", "Techniques held against the reference: a page with their images, errors and times");
+      "compare", "Compares techniques with the reference: writes a page with their images, errors and times");
   const auto options = std::make_shared<CompareOptions>();
   addScene(*command, options->scene);
   command
       ->add_option(
           "-o,--output", options->output,
           "The folder to write: index.html, which opens from disk; report.json; every image as EXR and PNG. "
-          "A report that is there is replaced")
+          "An existing report is replaced")
       ->required()
       ->type_name("REPORT_DIR");
   addSize(*command, options->size);

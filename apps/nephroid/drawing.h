@@ -1,4 +1,4 @@
-// Frames and sensors as commands make them: as often as asked for, with their times.
+// Draws frames and reads sensors for the commands: repeated as often as asked for, and timed.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ struct FrameRequest {
   const PictureSettings& settings;
   uvec2 size{640, 480};  // pixels
   uint32_t repeat = 1;
-  std::string name;           // of the step, for the progress bar
-  WaveRuns* waves = nullptr;  // of the frame before
+  std::string name;           // of this step, shown at the progress bar
+  WaveRuns* waves = nullptr;  // the state of simulated water after the frame before; null: none
 };
 
 struct FrameTime {
@@ -27,15 +27,16 @@ struct FrameTime {
   std::vector<PassTime> passes;
 };
 
-// Loads the scene and draws it; `use` is given the last frame. Returns the times of all repetitions; the rest
-// goes to `stats`.
+// Loads the scene and draws it `repeat` times. Then calls `use` with the renderer, which holds the last
+// frame. Returns the times of all repetitions; sets all other figures in `stats`.
 std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& device, Progress& progress,
                                  Stats& stats, const std::function<void(Renderer&)>& use);
 
-// The median's time, and that of its passes.
+// Writes the time of the median frame, and the times of its passes, to `stats`.
 void addMedianFrame(std::vector<FrameTime> times, Stats& stats);
 
-// Reads a sensor `repeat` times; the median of the times goes to `stats`, with the counts of the last.
+// Reads a sensor `repeat` times. Writes the median of the times, and the counts of the last reading, to
+// `stats`.
 SensorLayer readRepeatedly(const std::function<SensorLayer()>& read, uint32_t repeat, Stats& stats);
 
 }  // namespace nephroid

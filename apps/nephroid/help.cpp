@@ -9,7 +9,8 @@ namespace nephroid {
 namespace {
 
 constexpr std::size_t kWidth = 100;  // columns
-constexpr const char* kReferenceSummary = "Photons and paths with their own error: the truth for all others";
+constexpr const char* kReferenceSummary =
+    "Photon mapping and path tracing, with an estimate of the error: the reference for all techniques";
 
 // Breaks a text between words, each line after the first behind `indent` columns.
 void print(const std::string& text, std::size_t indent) {
@@ -62,7 +63,7 @@ void printTechnique(const std::string& name) {
 }
 
 void printList() {
-  std::cout << "Techniques, for --technique; `nephroid help NAME` tells the settings of one\n";
+  std::cout << "Techniques, for --technique; `nephroid help NAME` shows the settings of one\n";
   for (const TechniqueInfo* info : techniques()) {
     std::cout << "  " << info->name << "\n      ";
     print(info->summary, 6);
@@ -75,10 +76,12 @@ void printList() {
 
 Command addHelp(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("help", "The techniques; of one of them its settings and limits");
+      program.add_subcommand("help", "Lists the techniques, or shows the settings and limits of one");
   const auto name = std::make_shared<std::string>();
   const std::vector<std::string> names = techniqueList();
-  command->add_option("TECHNIQUE", *name, "Which: " + joined(names))->check(oneOf(names))->type_name("");
+  command->add_option("TECHNIQUE", *name, "The technique: " + joined(names))
+      ->check(oneOf(names))
+      ->type_name("");
   return {command, [name] { name->empty() ? printList() : printTechnique(*name); }};
 }
 

@@ -58,8 +58,8 @@ void runInfo(const std::filesystem::path& sceneFile) {
 
 Command addInfo(CLI::App& program) {
   CLI::App* command = program.add_subcommand("info",
-                                             "Versions, techniques and devices; for a scene what was loaded, "
-                                             "and what will make no caustics, and why");
+                                             "Shows versions, techniques and devices. For a scene: what was "
+                                             "loaded, which casters make no caustics, and why");
   const auto scene = std::make_shared<std::filesystem::path>();
   command->add_option("SCENE", *scene, "The scene: a .toml, .gltf or .glb file")->type_name("");
   return {command, [scene] { runInfo(*scene); }};

@@ -79,7 +79,7 @@ ExitStatus runProgram(int argc, char** argv) {
   app.set_version_flag("--version", "nephroid " NEPHROID_VERSION);
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
-  app.footer("Exit status: 0 done; 1 it could not be done; 2 the input is wrong; 130 interrupted.");
+  app.footer("Exit status: 0 success; 1 the work could not be done; 2 the input is wrong; 130 interrupted.");
   const Command commands[] = {addRender(app), addMeasure(app), addCompare(app), addBake(app),
                               addBench(app),  addInfo(app),    addView(app),    addHelp(app)};
   try {

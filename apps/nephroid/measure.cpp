@@ -127,7 +127,7 @@ void runMeasure(const MeasureOptions& options) {
 
 Command addMeasure(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("measure", "What an illuminance meter in the scene reads, in lux, as an EXR");
+      program.add_subcommand("measure", "Writes the illuminance on a sensor of the scene, in lux, as an EXR");
   const auto options = std::make_shared<MeasureOptions>();
   addScene(*command, options->scene);
   command->add_option("--sensor", options->sensor, "The name of a [[sensor]] of the scene")

@@ -59,7 +59,7 @@ void addOutput(CLI::App& command, fs::path& output, const std::string& help) {
 }
 
 void addTime(CLI::App& command, double& time) {
-  command.add_option("--time", time, "The time that what moves by itself is shown at, in seconds")
+  command.add_option("--time", time, "The time of the scene in seconds, for everything that moves by itself")
       ->check([](const std::string& text) {
         double seconds = 0;
         const bool isNumber = CLI::detail::lexical_cast(text, seconds) && std::isfinite(seconds);
@@ -100,8 +100,8 @@ void addSize(CLI::App& command, uvec2& size) {
 void addDevice(CLI::App& command, std::string& device) {
   command
       .add_option("--device", device,
-                  "The Vulkan device: its number in `nephroid info`, or a part of its name. Left out: a GPU "
-                  "where there is one, Mesa's software device where there is none")
+                  "The Vulkan device: its number in `nephroid info`, or a part of its name. Without it: a "
+                  "GPU if there is one, otherwise Mesa's software device")
       ->type_name("DEVICE");
 }
 
@@ -111,10 +111,9 @@ void addQuiet(CLI::App& command, bool& isQuiet) {
 
 void addRepeat(CLI::App& command, uint32_t& repeat) {
   command
-      .add_option(
-          "--repeat", repeat,
-          "Do the frame this many times, each time all that a moved light would change; the time told "
-          "is their median")
+      .add_option("--repeat", repeat,
+                  "Draw the frame this many times, each time with all work that a moved light needs, and "
+                  "report the median time")
       ->check(CLI::Range(1u, 1000000u))
       ->type_name("N")
       ->capture_default_str();
@@ -124,7 +123,7 @@ void addStats(CLI::App& command, fs::path& stats) {
   command
       .add_option(
           "--stats", stats,
-          "Where to write what the run took: device, technique, source, prepare_ms, frame_ms, passes, "
+          "Where to write the figures of the run: device, technique, source, prepare_ms, frame_ms, passes, "
           "counts, memory_bytes")
       ->type_name("FILE.json");
 }
@@ -158,7 +157,7 @@ void addTechniqueName(CLI::App& command, TechniqueSettings& settings) {
   const std::vector<std::string> names = techniqueList();
   command
       .add_option("--technique", settings.technique,
-                  "How caustics are made: " + joined(names) + "; `nephroid help NAME` tells more of one")
+                  "How caustics are made: " + joined(names) + "; `nephroid help NAME` tells more about one")
       ->check(oneOf(names))
       ->type_name("NAME")
       ->capture_default_str();
@@ -167,8 +166,8 @@ void addTechniqueName(CLI::App& command, TechniqueSettings& settings) {
 void addBaked(CLI::App& command, TechniqueSettings& settings) {
   command
       .add_option("--baked", settings.baked,
-                  "What `nephroid bake` wrote for this scene and technique: light transport tables, or "
-                  "irradiance volumes")
+                  "The file that `nephroid bake` wrote for this scene and technique: light transport tables, "
+                  "or irradiance volumes")
       ->type_name("FILE");
 }
 

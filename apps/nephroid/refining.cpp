@@ -76,7 +76,7 @@ void addReference(CLI::App& command, ReferenceOptions& options) {
 }
 
 void addResume(CLI::App& command, ReferenceOptions& options) {
-  command.add_flag("--resume", options.resumes, "Go on with the passes of the output, where it exists")
+  command.add_flag("--resume", options.resumes, "If the output file exists, continue from the passes in it")
       ->group("Reference");
 }
 

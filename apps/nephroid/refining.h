@@ -13,19 +13,19 @@ namespace nephroid {
 struct ReferenceOptions {
   ReferenceChoices choices;
   bool resumes = false;
-  const CLI::Option* paths = nullptr;  // of the technique; whether they were given
+  const CLI::Option* paths = nullptr;  // the option --paths; tells whether the user gave it
 };
 
-// The settings of the reference; after addTechnique.
+// Adds the settings of the reference. To be called after addTechnique.
 void addReference(CLI::App& command, ReferenceOptions& options);
-// --resume, for a command that writes one result.
+// Adds --resume, for a command that writes one result.
 void addResume(CLI::App& command, ReferenceOptions& options);
 
-// All paths unless others were asked for.
+// The reference follows all paths, unless the user gave --paths. `size`: pixels or texels.
 ReferenceSettings referenceSettings(const ReferenceOptions& options, const PictureSettings& picture,
                                     uvec2 size);
 
-// What a result is written as: the output, and what its file says of itself.
+// What refineToFile needs to know about its output file.
 struct ReferenceJob {
   const CommonOptions& common;
   const ReferenceOptions& options;
@@ -35,11 +35,12 @@ struct ReferenceJob {
   std::string sensor;  // its name; empty for an image
 };
 
-// What an EXR says of the passes in it.
+// The attributes of an EXR that tell which passes are in it.
 std::vector<ImageAttribute> referenceAttributes(const Estimate& estimate, const ReferenceJob& job);
 
-// Refines the estimate by the user's rule, from the file's own state with --resume, and writes it, now and
-// then and at the end. Throws Interrupted when the user ended it, after writing what there is.
+// Adds passes to the estimate until the user's stop rule is met. With --resume it first loads the passes that
+// the output file already holds. Writes the file from time to time and at the end. After Ctrl-C it writes the
+// file too, and then throws Interrupted.
 void refineToFile(Estimate& estimate, const ReferenceJob& job, Progress& progress, Stats& stats);
 
 }  // namespace nephroid

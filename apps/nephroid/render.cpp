@@ -95,7 +95,7 @@ void runRender(const RenderOptions& options) {
   if (isReference(options.picture)) return renderReference(options, jobs);
 
   Progress progress(progressDisplay(options.isQuiet));
-  loadScene(options.scene, options.time);  // what is wrong with it is told before a device is looked for
+  loadScene(options.scene, options.time);  // errors in the scene are reported before a device is opened
   gpu::Device device({.device = options.device});
   Stats stats;
   stats.device = device.info().name;
@@ -133,14 +133,14 @@ void addFrames(CLI::App& command, RenderOptions& options) {
 
 Command addRender(CLI::App& program) {
   CLI::App* command =
-      program.add_subcommand("render", "A picture of a scene, as PNG or as EXR with its layers");
+      program.add_subcommand("render", "Draws a picture of a scene, as PNG or as EXR with layers");
   const auto options = std::make_shared<RenderOptions>();
   addScene(*command, options->scene);
   addOutput(
       *command, options->output,
       "OUT.png: exposed and tone-mapped. OUT.exr: 32-bit float luminance in nit: R,G,B the total; "
       "direct.R,G,B and caustics.R,G,B its parts by light that met no caster, and by light that met one; "
-      "depth.Z in metres; normal.X,Y,Z");
+      "depth.Z in meters; normal.X,Y,Z");
   addSize(*command, options->size);
   addTime(*command, options->time);
   addFrames(*command, *options);

@@ -9,7 +9,7 @@ constexpr ImGuiWindowFlags kDialog = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_
                                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                      ImGuiWindowFlags_AlwaysAutoResize;
 
-void centreNext(vec2 windowSize) {
+void centerNext(vec2 windowSize) {
   ImGui::SetNextWindowPos({0.5f * windowSize.x, 0.5f * windowSize.y}, ImGuiCond_Always, {0.5f, 0.5f});
 }
 
@@ -25,7 +25,7 @@ void drawHelp(ViewerState& state, std::span<const KeyBinding> keys, vec2 windowS
   std::vector<const KeyBinding*> shown;
   for (const KeyBinding& key : keys)
     if (*key.shown != 0) shown.push_back(&key);
-  centreNext(windowSize);
+  centerNext(windowSize);
   ImGui::SetNextWindowBgAlpha(0.97f);
   ImGui::SetNextWindowFocus();
   ImGui::Begin("Keys and mouse", &state.isHelpShown, kDialog);
@@ -55,7 +55,7 @@ const char* whatFor(Question::About about) {
 
 void drawQuestion(Question& question, vec2 windowSize, float scale) {
   using Answer = Question::Answer;
-  centreNext(windowSize);
+  centerNext(windowSize);
   ImGui::SetNextWindowFocus();
   ImGui::Begin("Save the changes?", nullptr, kDialog);
   ImGui::TextUnformatted(whatFor(question.about));

@@ -1,4 +1,4 @@
-// What lies over everything: help, and questions.
+// The help page and the questions, which are drawn over all other panels.
 #pragma once
 
 #include "key_bindings.h"

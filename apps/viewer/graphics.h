@@ -1,4 +1,4 @@
-// All that the window has on the device. Made anew when the device is lost.
+// Everything that the viewer keeps on the Vulkan device. It is created again when the device is lost.
 #pragma once
 
 #include <memory>
@@ -21,14 +21,14 @@ class Graphics {
   Gui& gui() { return gui_; }
   OutputView& outputView() { return *outputView_; }
 
-  // Draws the panels, over the pictures among them, and shows all that in the window.
+  // Draws the panels with their pictures, and shows the result in the window. `framebufferSize`: pixels.
   void show(uvec2 framebufferSize);
 
-  // All that is drawn of the scene, of the shaders as they are now. Throws, and it stays as it was, where
-  // they do not fit.
+  // Creates again everything that draws the scene, with the present shaders. Where that fails it throws, and
+  // nothing has changed.
   void remakePrograms();
 
-  // A picture that the host made.
+  // Sends a picture that the host made to the device; `uploaded` is its image.
   void upload(const ByteImage& picture);
   const gpu::Image& uploaded() const { return uploaded_; }
 
@@ -41,7 +41,8 @@ class Graphics {
   gpu::Image uploaded_;
 
  public:
-  // What is drawn of the scene; none until it is prepared. Goes before the device.
+  // Draws the scene; null until the scene is prepared. Declared last, so that it is destroyed before the
+  // device.
   std::unique_ptr<Stage> stage;
 };
 

@@ -12,28 +12,29 @@
 
 namespace nephroid {
 
-// What ImGui calls a texture: an image that lasts until the panels are drawn.
+// A texture for ImGui. The image must exist until the panels are drawn.
 struct GuiImage {
   const gpu::Image* image = nullptr;
-  bool isSmooth = false;  // between its texels
+  bool isSmooth = false;  // linear filtering; otherwise the nearest texel
   ImTextureID id() { return static_cast<ImTextureID>(this); }
 };
 
 class Gui {
  public:
-  // Window and device outlive it. One at a time.
+  // Window and device must outlive it. Only one Gui may exist at a time.
   Gui(gpu::Device& device, DesktopWindow& window);
   ~Gui();
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
 
-  // Between these, panels are laid out. The second draws them over `screen` (rgba8).
+  // Call begin, then ImGui's functions for the panels, then draw, which draws the panels over `screen`
+  // (rgba8).
   void begin();
   void draw(const gpu::Image& screen);
 
-  float scale() const { return scale_; }  // of the panels: 1 on an ordinary screen
+  float scale() const { return scale_; }  // factor by which panels are enlarged: 1 on an ordinary screen
   bool wantsMouse() const;
-  bool wantsKeyboard() const;  // someone types into a field
+  bool wantsKeyboard() const;  // the user types into a field
 
  private:
   void loadFont();

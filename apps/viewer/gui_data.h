@@ -1,4 +1,4 @@
-// What drawing panels is told, for C++ and GLSL.
+// The data of the shaders that draw the panels, for C++ and GLSL.
 #ifndef NEPHROID_VIEWER_GUI_DATA_H
 #define NEPHROID_VIEWER_GUI_DATA_H
 

@@ -1,4 +1,4 @@
-// What a person did between two frames.
+// What the user did between two frames, with keys and mouse.
 #pragma once
 
 #include <filesystem>
@@ -13,19 +13,19 @@ enum class MouseButton { left, right, middle };
 inline constexpr int kMouseButtons = 3;
 
 struct KeyPress {
-  int key = 0;        // as GLFW_KEY_... has it
+  int key = 0;        // one of GLFW's constants GLFW_KEY_...
   uint32_t text = 0;  // the character on the key in the user's layout; 0: none
   bool isShift = false;
   bool isControl = false;
-  bool isRepeated = false;  // held
+  bool isRepeated = false;  // sent again because the key is held
 };
 
 struct Input {
-  std::vector<KeyPress> presses;  // keys gone down, in their order
+  std::vector<KeyPress> presses;  // keys that were pressed, in order
   std::vector<std::filesystem::path> dropped;
   vec2 mouse{0};    // pixels of the framebuffer from the upper left corner
-  vec2 moved{0};    // since the frame before
-  vec2 takenAt{0};  // as `mouse`, where the button went down that did so last
+  vec2 moved{0};    // pixels that the mouse moved since the frame before
+  vec2 takenAt{0};  // the place, as `mouse`, at which a button was last pressed
   float wheel = 0;  // steps away from the user
   bool isDown[kMouseButtons]{};
   bool wentDown[kMouseButtons]{};
@@ -33,7 +33,7 @@ struct Input {
   bool isShift = false;    // held
   bool isControl = false;  // held
   int heldAxis = -1;       // 0 to 2 while x, y or z is held
-  bool isAny = false;      // anything happened at all
+  bool isAny = false;      // whether anything happened
 };
 
 }  // namespace nephroid

@@ -69,17 +69,17 @@ constexpr KeyBinding kBindings[] = {
     {"F", "Look at what is chosen", GLFW_KEY_F, false, false, frameChosen},
     {"Home", "Camera as in the file", GLFW_KEY_HOME, false, false,
      [](Viewer& viewer) { viewer.state().scene.camera = viewer.state().firstState.camera; }},
-    {"Esc", "Nothing chosen, the picture again", GLFW_KEY_ESCAPE, false, false,
+    {"Esc", "Choose nothing; show the picture", GLFW_KEY_ESCAPE, false, false,
      [](Viewer& viewer) {
        viewer.state().selection = {};
        viewer.state().isHelpShown = false;
        showPicture(viewer);
      }},
     {"M", "Next technique", GLFW_KEY_M, false, false, [](Viewer& viewer) { stepTechnique(viewer, 1); }},
-    {"Shift M", "Technique before", GLFW_KEY_M, false, true,
+    {"Shift M", "The technique before", GLFW_KEY_M, false, true,
      [](Viewer& viewer) { stepTechnique(viewer, techniques().size() - 1); }},
     {"B", "Beams from tables, or traced", GLFW_KEY_B, false, false, changeSource},
-    {"Space", "While held: the reference, which gets better and better"},
+    {"Space", "While held: show the reference, which improves with time"},
     {"E", "Error against the reference", GLFW_KEY_E, false, false,
      [](Viewer& viewer) {
        Shown& shown = viewer.state().shown;
@@ -88,7 +88,7 @@ constexpr KeyBinding kBindings[] = {
     {"1", "Beams", GLFW_KEY_1, false, false, [](Viewer& viewer) { toggle(viewer, Overlay::beams); }},
     {"2", "Virtual planes", GLFW_KEY_2, false, false,
      [](Viewer& viewer) { toggle(viewer, Overlay::planes); }},
-    {"3", "Slices of what glass shows", GLFW_KEY_3, false, false,
+    {"3", "Slices for the view through glass", GLFW_KEY_3, false, false,
      [](Viewer& viewer) { toggle(viewer, Overlay::slices); }},
     {"4", "Cells of irradiance volumes", GLFW_KEY_4, false, false,
      [](Viewer& viewer) { toggle(viewer, Overlay::cells); }},
@@ -100,9 +100,9 @@ constexpr KeyBinding kBindings[] = {
      [](Viewer& viewer) { viewer.show("direct light", ""); }},
     {"9", "Depth", GLFW_KEY_9, false, false, [](Viewer& viewer) { viewer.show("receivers", "depth"); }},
     {"0", "The picture again", GLFW_KEY_0, false, false, showPicture},
-    {"K", "Time goes on, and stops", GLFW_KEY_K, false, false,
+    {"K", "Start and stop the time", GLFW_KEY_K, false, false,
      [](Viewer& viewer) { viewer.state().isPlaying = !viewer.state().isPlaying; }},
-    {"L, J", "A 60th of a second on, and back", GLFW_KEY_L, false, false,
+    {"L, J", "A 60th of a second forward, and back", GLFW_KEY_L, false, false,
      [](Viewer& viewer) { viewer.setTime(viewer.state().scene.time + kFrame); }, true},
     {"", "", GLFW_KEY_J, false, false,
      [](Viewer& viewer) { viewer.setTime(viewer.state().scene.time - kFrame); }, true},
@@ -118,8 +118,7 @@ constexpr KeyBinding kBindings[] = {
     {"P", "Picture as PNG", GLFW_KEY_P, false, false, [](Viewer& viewer) { viewer.takePicture(".png"); }},
     {"Shift P", "Picture as EXR", GLFW_KEY_P, false, true,
      [](Viewer& viewer) { viewer.takePicture(".exr"); }},
-    {"V", "Record a video, and end it", GLFW_KEY_V, false, false,
-     [](Viewer& viewer) { viewer.recordVideo(); }},
+    {"V", "Start and end a video", GLFW_KEY_V, false, false, [](Viewer& viewer) { viewer.recordVideo(); }},
     {"Ctrl S", "Save the scene", GLFW_KEY_S, true, false, [](Viewer& viewer) { viewer.save(); }},
     {"Ctrl Z", "Undo", GLFW_KEY_Z, true, false, [](Viewer& viewer) { viewer.undo(); }, true},
     {"Ctrl Y", "Redo", GLFW_KEY_Y, true, false, [](Viewer& viewer) { viewer.redo(); }, true},

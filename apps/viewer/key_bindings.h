@@ -1,4 +1,4 @@
-// What keys and mouse do: the list that help is made of, and that keys are looked up in.
+// What keys and mouse do. The help page shows this list, and pressed keys are looked up in it.
 #pragma once
 
 #include <span>
@@ -10,12 +10,12 @@ class Viewer;
 struct KeyBinding {
   const char* shown;  // "Ctrl S"
   const char* help;
-  int key = 0;  // GLFW_KEY_..., which for a letter means the key that has it on the user's keyboard; 0: the
-                // mouse does it, or it is held
+  int key = 0;  // GLFW_KEY_...; for a letter, the key with this letter in the user's layout; 0: an action of
+                // the mouse, or of a key that is held
   bool isControl = false;
   bool isShift = false;
   void (*act)(Viewer&) = nullptr;
-  bool repeats = false;  // while the key is held
+  bool repeats = false;  // again and again while the key is held
 };
 
 std::span<const KeyBinding> keyBindings();

@@ -43,7 +43,7 @@ void drawStatus(ViewerState& state, const Area& picture, float scale) {
     ImGui::SameLine();
     ImGui::TextUnformatted(state.preparing->name.c_str());
     ImGui::SameLine();
-    if (ImGui::SmallButton("Cancel")) state.isPreparationCancelled = true;
+    if (ImGui::SmallButton("Cancel")) state.isPreparationCanceled = true;
   }
   if (isTold) {
     ImGui::PushTextWrapPos(picture.size.x - 32 * scale);

@@ -7,7 +7,7 @@
 
 namespace nephroid {
 
-// Windows that stay where they are put.
+// Flags of panels that the user cannot move.
 inline constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                            ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings |
                                            ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
@@ -20,13 +20,13 @@ struct Area {
   vec2 size{0};
 };
 
-// Unscaled.
+// In units of the panels at scale 1.
 inline constexpr float kPanelWidth = 330;
 
-// What is left of a window of this size for the picture.
+// The part of the window that the panels leave for the picture. `windowSize`: units of the panels.
 Area pictureArea(const ViewerState& state, vec2 windowSize, float scale);
 
-// `seconds`: the scene's time, which may be changed.
+// `seconds`: the scene's time, which the user may change in a panel.
 void drawPanels(ViewerState& state, vec2 windowSize, float scale, float& seconds);
 
 }  // namespace nephroid

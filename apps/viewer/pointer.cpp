@@ -97,7 +97,7 @@ void Pointer::turnThing(const Input& input, ViewerState& state) const {
   const auto turnSelected = [&](vec3 axis, float angle) {
     if (handle_) return turn(scene.lights[handle_->light], axis, angle);
     Object& object = scene.objects[state.selection.index];
-    turn(object.placement, centreOf(scene, object), axis, angle);
+    turn(object.placement, centerOf(scene, object), axis, angle);
   };
   const vec2 angle = kRadiansPerPixel * input.moved;
   if (input.heldAxis >= 0) {

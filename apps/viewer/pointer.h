@@ -1,4 +1,5 @@
-// What the mouse does in the picture: the camera goes around, things are chosen, dragged and turned.
+// What the mouse does in the picture: it moves the camera, and it chooses, drags and turns objects and
+// lights.
 #pragma once
 
 #include <optional>
@@ -12,13 +13,13 @@ namespace nephroid {
 
 class Pointer {
  public:
-  // `size` is the picture's, in pixels of the window, and `input.mouse` in them. `rays` are those of the
-  // scene; null where there are none yet. `isOver`: the pointer is over the picture, and nothing lies over
-  // it. Returns what was clicked on, when it was.
+  // Handles the input of one frame. `size`: of the picture, in pixels of the window; `input.mouse` is in the
+  // same pixels. `rays`: of the scene; null where they are not yet prepared. `isOver`: the pointer is on the
+  // picture, and no panel covers it. Returns the object or light that was clicked on, if there was a click.
   std::optional<Selection> use(const Input& input, const RayScene* rays, uvec2 size, bool isOver, float scale,
                                ViewerState& state);
 
-  // Something is held: what is done to it is not over.
+  // Whether a drag is going on.
   bool isHolding() const { return held_ != Held::nothing; }
 
  private:
@@ -29,10 +30,10 @@ class Pointer {
 
   Held held_ = Held::nothing;
   MouseButton button_ = MouseButton::left;
-  vec2 from_{0};    // pixels, where it was taken
-  vec3 anchor_{0};  // m, where that is in the scene
+  vec2 from_{0};    // pixels, where the drag began
+  vec3 anchor_{0};  // m, the point of the scene where the drag began
   std::optional<Handle> handle_;
-  Scene before_;  // the lights and objects as they were then
+  Scene before_;  // the lights and objects when the drag began
   bool hasMoved_ = false;
 };
 

@@ -70,9 +70,9 @@ void drawLight(Light& light, const Light& first) {
     const char* name = light.type == LightType::line   ? "From"
                        : light.type == LightType::area ? "Corner"
                                                        : "Position";
-    dragMetres(name, light.position, kPlace);
+    dragMeters(name, light.position, kPlace);
   }
-  if (light.type == LightType::line) dragMetres("To", light.end, "Where the tube ends (m)");
+  if (light.type == LightType::line) dragMeters("To", light.end, "Where the tube ends (m)");
   if (light.type == LightType::directional || light.type == LightType::spot) drawDirection(light.direction);
   if (light.type == LightType::spot && light.outerAngle <= 90) drawSpot(light);
 }
@@ -92,10 +92,10 @@ void drawDielectric(Material& material) {
     if (isBent || isSpread) setDispersion(material, double(ior), double(dispersion));
   }
   color("Tint", material.attenuationColor, "What is left of white light after the distance below");
-  float metres = std::isfinite(material.attenuationDistance) ? material.attenuationDistance : 0;
-  if (slider("Tint after", metres, 0, 10, metres > 0 ? "%.3g m" : "clear",
+  float meters = std::isfinite(material.attenuationDistance) ? material.attenuationDistance : 0;
+  if (slider("Tint after", meters, 0, 10, meters > 0 ? "%.3g m" : "clear",
              "The way in the material after which white light has that color (m); 0: it is clear", true))
-    material.attenuationDistance = metres > 0 ? metres : std::numeric_limits<float>::infinity();
+    material.attenuationDistance = meters > 0 ? meters : std::numeric_limits<float>::infinity();
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ void drawObjectsPanel(ViewerState& state) {
     if (!beginEntry(state, object.name, {Chosen::object, i})) continue;
     ImGui::TextDisabled("of %s, %zu triangles", state.scene.materialOf(object).name.c_str(),
                         state.scene.meshOf(object).triangles.size());
-    dragMetres("Position", object.placement.translation, "Where its origin is (m)");
+    dragMeters("Position", object.placement.translation, "Where its origin is (m)");
     slider("Scale", object.placement.scale, 0.01f, 100, "%.3g", "How many times as large as its mesh", true);
     endEntry();
   }
@@ -156,7 +156,7 @@ void drawMaterialsPanel(ViewerState& state) {
 void drawAirPanel(ViewerState& state) {
   if (!state.scene.medium || !ImGui::CollapsingHeader("Air")) return;
   Medium& medium = *state.scene.medium;
-  slider("Extinction", medium.extinction, 0, 2, "%.4f /m", "How much of the light a metre of air takes (1/m)",
+  slider("Extinction", medium.extinction, 0, 2, "%.4f /m", "How much of the light a meter of air takes (1/m)",
          true);
   slider("Albedo", medium.albedo, 0, 1, "%.3f", "The part of it that is scattered and not absorbed");
   if (medium.phase == PhaseType::henyeyGreenstein)
@@ -170,9 +170,9 @@ void drawCameraPanel(ViewerState& state) {
   slider("Exposure", camera.exposure, 1e-6f, 1e3f, "%.4g", "Multiplies luminance before tone mapping", true);
   slider("Field of view", camera.verticalFov, 5, 120, "%.1f°", "From the lower edge to the upper (degrees)");
   vec3 position = camera.position, target = camera.target;
-  if (dragMetres("Position", position, "Where it stands (m)") && position != target)
+  if (dragMeters("Position", position, "Where it stands (m)") && position != target)
     camera.position = position;
-  if (dragMetres("Target", target, "What it looks at, and goes around (m)") && position != target)
+  if (dragMeters("Target", target, "What it looks at, and goes around (m)") && position != target)
     camera.target = target;
 }
 

@@ -1,4 +1,4 @@
-// What is in the scene: a heading each.
+// The panels that show and change a scene, one for each kind of thing in it.
 #pragma once
 
 #include "viewer_state.h"

@@ -1,10 +1,11 @@
+// The viewer's panel of techniques and their settings.
 #pragma once
 
 #include "viewer_state.h"
 
 namespace nephroid {
 
-// Which technique, and all that may be said of how it works: the command line's flags.
+// Shows the technique and all its settings, which are the same as on the command line.
 void drawSettingsPanel(ViewerState& state);
 
 }  // namespace nephroid

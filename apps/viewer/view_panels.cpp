@@ -15,10 +15,10 @@ void drawOverlayBoxes(ViewerState& state) {
     const char* name;
     const char* help;
   } kOverlayNames[kOverlays]{
-      {"Beams", "Rays on which beams stand, from where they leave glass to what they meet (1)"},
+      {"Beams", "The corner rays of beams, from glass to the surface that they meet (1)"},
       {"Planes", "Virtual planes, with their inner and outer windows (2)"},
-      {"Slices", "Planes at which receivers are looked for that glass shows (3)"},
-      {"Cells", "Where irradiance volumes are kept (4)"},
+      {"Slices", "Planes at which receivers behind glass are looked for (3)"},
+      {"Cells", "The cells of irradiance volumes (4)"},
       {"Culled beams",
        "Light that leaves no caster: red is totally reflected until it is lost, blue is held up on "
        "its way (5)"},

@@ -89,7 +89,7 @@ void Viewer::prepareWhatIsWanted() {
 void Viewer::takePrepared() {
   state_.preparing.reset();
   if (!preparation_) return;
-  if (std::exchange(state_.isPreparationCancelled, false)) preparation_->cancel();
+  if (std::exchange(state_.isPreparationCanceled, false)) preparation_->cancel();
   if (!preparation_->isDone()) {
     state_.preparing = preparation_->progress();
     return;
@@ -103,7 +103,7 @@ void Viewer::takePrepared() {
   } catch (const gpu::DeviceLost&) {
     throw;
   } catch (const Interrupted&) {
-    tell(state_, "Cancelled: the picture goes on as it was");
+    tell(state_, "Canceled: the picture stays as it was");
     if (ends() || !graphics_->stage) return;
     state_.settings = graphics_->stage->settings();
     state_.scene.materials = graphics_->stage->scene().materials;
@@ -267,7 +267,7 @@ void Viewer::showTitle() {
 
 void Viewer::showFrame() {
   const uvec2 framebuffer = window_.framebufferSize();
-  if (framebuffer.x == 0 || framebuffer.y == 0) return;  // minimised
+  if (framebuffer.x == 0 || framebuffer.y == 0) return;  // minimized
   const Clock::time_point start = Clock::now();
   graphics_->gui().begin();
   layOut();

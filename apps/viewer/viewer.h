@@ -12,15 +12,16 @@ namespace nephroid {
 struct ViewerOptions {
   std::filesystem::path scene;  // empty: none yet
   PictureSettings settings;
-  uvec2 size{0};                // of the picture, pixels; 0: as the window was left last
-  double time = 0;              // s
-  std::string device;           // as gpu::DeviceOptions has it
-  uint32_t frames = 0;          // so many, each made anew, and the end; 0: until the window is closed
-  std::filesystem::path stats;  // of those frames; empty: none
+  uvec2 size{0};       // of the picture, pixels; 0: the size of the last use
+  double time = 0;     // s
+  std::string device;  // as gpu::DeviceOptions::device
+  uint32_t frames =
+      0;  // draw this many frames, compute each completely, and end; 0: until the window is closed
+  std::filesystem::path stats;  // where to write the figures of those frames; empty: nowhere
 };
 
-// Until the window is closed. Throws InputError where there is no display, or this program was built without
-// what windows need.
+// Runs until the window is closed. Throws InputError where there is no display, or where this program was
+// built without the viewer's libraries.
 void runViewer(const ViewerOptions& options);
 
 }  // namespace nephroid

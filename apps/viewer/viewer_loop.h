@@ -1,4 +1,4 @@
-// The viewer from frame to frame. Its functions stand in files by what they are about.
+// The loop of the viewer. The comments name the file in which each group of functions is defined.
 #pragma once
 
 #include <chrono>
@@ -26,29 +26,29 @@ namespace nephroid {
 class Viewer {
  public:
   explicit Viewer(const ViewerOptions& options);
-  // With the scene of the options, until the window is closed.
+  // Opens the scene of the options and draws frames until the window is closed.
   void run();
-  // One frame of that; false when it was the last.
+  // Does one frame. Returns false after the last one.
   bool step();
 
   ViewerState& state() { return state_; }
   DesktopWindow& window() { return window_; }
   gpu::Device& device() { return graphics_->device(); }
-  ByteImage picture() { return graphics_->stage->renderer().picture(); }  // where there is one
+  ByteImage picture() { return graphics_->stage->renderer().picture(); }  // needs a scene that has been drawn
 
   // viewer_files.cpp
-  void open(const std::filesystem::path& file);  // asks before changes are lost
+  void open(const std::filesystem::path& file);  // asks first if changes are not saved
   void reload();
   bool save();
   bool isSaved() const;
   void undo();
   void redo();
   void takePicture(const char* extension);
-  void recordVideo();  // or end it
+  void recordVideo();  // starts a video, or ends it
   void close();        // asks before changes are lost
   // viewer_time.cpp
   void setTime(double seconds);
-  void dropStone();  // where the pointer is
+  void dropStone();  // into the water under the pointer
   // viewer_views.cpp
   void show(const char* pass, const char* output);
   // viewer_shaders.cpp
@@ -70,7 +70,7 @@ class Viewer {
   void keepHistory();
   void keepHistoryAtRest();
   uvec2 pictureSize() const;
-  bool drawPicture();  // whether there was anything new to draw
+  bool drawPicture();  // false where nothing has changed
   void layOut();
   void showTitle();
   void showFrame();
@@ -102,16 +102,16 @@ class Viewer {
   // viewer_shaders.cpp
   void useShaders();
 
-  // What the picture on the screen was made of.
+  // Everything that the picture on the screen depends on.
   struct Drawn {
     SceneState state;
     double time = 0;
     uvec2 size{0};
     Paths paths = Paths::transmission;
-    uint32_t stage = 0;  // counted
+    uint32_t stage = 0;  // number of the stage, counted from the start
     bool operator==(const Drawn&) const = default;
   };
-  // Apart from how it was drawn: one reference serves both.
+  // Whether the two show the same, apart from how they were drawn: then they have the same reference.
   static bool seeTheSame(Drawn a, const Drawn& b);
 
   using Clock = std::chrono::steady_clock;
@@ -124,21 +124,21 @@ class Viewer {
   vec2 mouse_{0};  // in the picture, pixels of the window
 
   std::unique_ptr<Preparation> preparation_;
-  bool opensScene_ = false;  // what is to be shown is another scene, not this one with other settings
+  bool opensScene_ = false;  // the preparation is for another scene, not for other settings of this one
   std::filesystem::path opening_;
   std::string openingText_;
-  bool keepsCamera_ = false;                                      // of the scene that is opened
-  std::optional<std::pair<SceneState, PictureSettings>> failed_;  // what could not be prepared
-  Clock::time_point lastLoss_{};                                  // of the device
+  bool keepsCamera_ = false;  // keep the present camera when the scene has been opened
+  std::optional<std::pair<SceneState, PictureSettings>> failed_;  // the state whose preparation failed
+  Clock::time_point lastLoss_{};                                  // when the device was last lost
   Clock::time_point preparationStart_;
   double prepareMilliseconds_ = 0;
 
-  std::string text_;  // of the scene's file, as it is saved; empty for glTF
-  WaveRuns waves_;    // of the time that is shown
+  std::string text_;  // of the scene's file, as it was last saved; empty for glTF
+  WaveRuns waves_;    // at the time that is shown
   bool isTextSaved_ = true;
   std::filesystem::file_time_type fileTime_{}, lastSeenTime_{};
   Clock::time_point lastWatch_{};
-  std::vector<std::future<std::string>> tasks_;  // each ends with what there is to say
+  std::vector<std::future<std::string>> tasks_;  // work on other threads; each returns a message
   std::unique_ptr<VideoPipe> video_;
   std::future<gpu::ShaderChanges> shaders_;  // being compiled
 
@@ -154,8 +154,8 @@ class Viewer {
   uint32_t stageCount_ = 0;
   Drawn drawn_;
   bool isFlightHeld_ = false;
-  Clock::time_point lastCameraStep_{};  // by the wheel or a key
-  int framesToGo_ = 0;                  // until the window is at rest
+  Clock::time_point lastCameraStep_{};  // when the wheel or a key last moved the camera
+  int framesToGo_ = 0;                  // frames still to draw before the window waits for input
   Clock::time_point lastFrame_ = Clock::now();
   Clock::time_point lastChange_ = Clock::now();
   std::vector<double> frameMilliseconds_;

@@ -10,7 +10,7 @@ void Viewer::reloadShaders() {
   shaders_ = std::async(std::launch::async, [] { return gpu::compileAgain(NEPHROID_SHADER_COMPILER); });
   tell(state_, "The shaders are compiled");
 #else
-  tell(state_, "Shaders are compiled again in builds with -DNEPHROID_SHADER_RELOAD=ON alone");
+  tell(state_, "Only builds with -DNEPHROID_SHADER_RELOAD=ON compile shaders again");
 #endif
 }
 

@@ -1,4 +1,4 @@
-// All that panels show and change.
+// The state of the viewer that the panels show and change.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct Message {
   std::chrono::steady_clock::time_point until{};
 };
 
-// What is to be done once it is clear what becomes of changes that are not saved.
+// A question to the user about changes that are not saved, and what to do after the answer.
 struct Question {
   enum class About { close, open, reload };
   enum class Answer { none, save, discard, cancel };
@@ -35,7 +35,7 @@ struct Question {
   Answer answer = Answer::none;
 };
 
-// What is drawn over the picture.
+// What may be drawn over the picture.
 enum class Overlay { beams, planes, slices, cells, culled };
 inline constexpr std::size_t kOverlays = 5;
 
@@ -44,37 +44,37 @@ enum class Shown { picture, error, output };
 struct ViewerState {
   std::filesystem::path file;  // of the scene
   bool isOpen = false;         // there is a scene
-  Scene scene;                 // as it is shown
-  PictureSettings settings;    // as they are wanted
+  Scene scene;                 // as shown now
+  PictureSettings settings;    // as the user wants them
   History history;
-  SceneState firstState;  // as the file has it
+  SceneState firstState;  // as in the file
   Selection selection;
 
   Shown shown = Shown::picture;
   std::string shownPass;    // whose output is shown
-  std::string shownOutput;  // which of its; empty: the first
+  std::string shownOutput;  // the name of that output; empty: the first
   std::vector<PassOutput> outputs;
   std::array<bool, kOverlays> overlays{};
   BeamCounts beamCounts;
   bool isReferenceHeld = false;
-  std::shared_ptr<const ReferenceView> reference;  // the last there is of what is shown
+  std::shared_ptr<const ReferenceView> reference;  // the newest reference of what is shown
 
   FrameTimes times;
   double framesPerSecond = 0;
-  Stats stats;               // of the last frame: counts
+  Stats stats;               // counts of the last frame
   uint64_t memoryBytes = 0;  // on the device
   std::string device;
   std::optional<Progress::State> preparing;
-  bool isPreparationCancelled = false;  // asked for by the user
+  bool isPreparationCanceled = false;  // by the user
   Message message;
   std::optional<Question> question;
-  std::string recording;  // file of a video that is being made
+  std::string recording;  // file of the video that is being recorded; empty: none
 
-  bool isPlaying = false;  // time goes on
+  bool isPlaying = false;  // the scene's time is running
   bool arePanelsShown = true;
   bool areTimesShown = true;
   bool isHelpShown = false;
-  uint32_t divisor = 1;  // pixels of the window along a pixel of the picture
+  uint32_t divisor = 1;  // side of a pixel of the picture, in pixels of the window
 
   bool isOverlaid(Overlay overlay) const { return overlays[static_cast<std::size_t>(overlay)]; }
 };

@@ -127,7 +127,8 @@ void Viewer::updateLines() {
   if (state_.isOverlaid(Overlay::planes)) add(latticeLines(lattices, LatticeKind::planes));
   if (state_.isOverlaid(Overlay::slices)) add(latticeLines(lattices, LatticeKind::slices));
   if (state_.isOverlaid(Overlay::cells)) add(latticeLines(lattices, LatticeKind::cells));
-  if (lines_.empty()) tell(state_, "There is nothing of that kind in " + settings.technique + " here");
+  if (lines_.empty())
+    tell(state_, "There is nothing of this kind to show with " + settings.technique + " here");
 }
 
 void Viewer::drawLines(vec2 corner, vec2 size) const {

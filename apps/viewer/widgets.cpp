@@ -44,7 +44,7 @@ bool slider(const char* label, float& value, float low, float high, const char* 
   return isChanged;
 }
 
-bool dragMetres(const char* label, vec3& value, const char* help) {
+bool dragMeters(const char* label, vec3& value, const char* help) {
   const bool isChanged = ImGui::DragFloat3(label, &value.x, 0.01f, 0, 0, "%.3g");
   tooltip(help);
   return isChanged;

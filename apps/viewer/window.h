@@ -19,25 +19,26 @@ class DesktopWindow {
   DesktopWindow(const DesktopWindow&) = delete;
   DesktopWindow& operator=(const DesktopWindow&) = delete;
 
-  // What Vulkan needs to show pictures in windows here.
+  // The Vulkan instance extensions that are needed to show images in a window.
   static std::vector<std::string> surfaceExtensions();
   // Throws RuntimeFailure.
   VkSurfaceKHR createSurface(VkInstance instance) const;
 
-  // Waits at most so long (s; 0: not at all) for something to happen.
+  // Waits at most `seconds` for input, and returns the input since the last call. 0: does not wait.
   Input poll(double seconds);
 
-  uvec2 framebufferSize() const;  // pixels; 0 while minimised
-  uvec2 size() const;             // in the desktop's units
+  uvec2 framebufferSize() const;  // pixels; 0 while minimized
+  uvec2 size() const;             // in units of the desktop
   ivec2 position() const;
-  float contentScale() const;  // pixels that the user wants for one of an ordinary screen
+  float contentScale() const;  // the desktop's scale: 1 on an ordinary screen
   bool isHeld(int key) const;
   bool isClosing() const;
   void setClosing(bool isClosing);
   void setTitle(const std::string& title);
   void place(ivec2 position);
   void resize(uvec2 size);
-  // So that it is so many pixels, and waits a moment for it; the desktop may have it otherwise.
+  // Resizes the window so that its framebuffer has this size, and waits a moment for it. The desktop may
+  // choose another size.
   void resizeFramebuffer(uvec2 pixels);
   GLFWwindow* handle() const { return window_; }
 
@@ -45,7 +46,7 @@ class DesktopWindow {
   void listen();
 
   GLFWwindow* window_ = nullptr;
-  Input input_;  // being collected
+  Input input_;  // collected since the last poll
   vec2 lastMouse_{0};
   std::string title_;
 };

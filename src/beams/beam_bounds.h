@@ -1,5 +1,5 @@
-// Bounds of a bundle of beams as a hull that widens along an axis of the world (Barczak and Olano, 3.3):
-// where its rays cross one plane, and how steeply they may go from there. Once for C++ and GLSL.
+// Bounds of a group of beams: a hull that widens along an axis of the world (Barczak and Olano, 3.3). It
+// tells where the rays cross one plane, and how steep they are at most. Written once for C++ and GLSL.
 #ifndef NEPHROID_BEAMS_BEAM_BOUNDS_H
 #define NEPHROID_BEAMS_BEAM_BOUNDS_H
 
@@ -7,37 +7,39 @@
 
 SHARED_BEGIN
 
-// Ways along which light mainly goes: +x, -x, +y, -y, +z, -z; rays of kEveryWay have no hull.
+// The main direction of the light: +x, -x, +y, -y, +z or -z. Groups of kEveryWay go in all directions and
+// have no hull.
 SHARED_CONSTANT uint kWays = 6u;
 SHARED_CONSTANT uint kEveryWay = 6u;
 SHARED_CONSTANT uint kChildren = 8u;
 
-// What is bounded: the way in the low bits, whether it is one beam, and above these the beam's portion.
+// Bits of BeamBounds::kind: the main direction, then whether it is a single beam, then the portion of that
+// beam.
 SHARED_CONSTANT uint kWayMask = 7u;
 SHARED_CONSTANT uint kIsBeam = 8u;
 SHARED_CONSTANT uint kPortionShift = 4u;
 
 struct BeamBounds {
-  vec2 crossingLow;  // m, across the way, where rays cross the reference plane
+  vec2 crossingLow;  // m, two coordinates across the main direction where rays cross the reference plane
   vec2 crossingHigh;
   vec2 slopeLow;  // m across per m along
   vec2 slopeHigh;
-  float reference;  // m along the way, of the plane
-  float nearest;    // m along the way, where the first ray begins
-  float farthest;   // m along the way, past which no light comes
-  uint first;       // of kChildren bounds of its parts; or its beam
+  float reference;  // m along the main direction, of the reference plane
+  float nearest;    // m along the main direction, where the first ray begins
+  float farthest;   // m along the main direction; no light gets farther
+  uint first;       // index of the first of its kChildren children, or of its beam
   uint kind;
-  uint unused[3];  // up to four texels
+  uint unused[3];  // fills the struct up to four texels
 };
 
-// Across the way and, as z, along it.
+// A vector's two components across the main direction and, as z, the one along it.
 SHARED_FUNCTION vec3 inWay(vec3 v, uint way) {
   vec3 turned = way < 2u ? vec3(v.y, v.z, v.x) : way < 4u ? vec3(v.z, v.x, v.y) : v;
   if ((way & 1u) != 0u) turned.z = -turned.z;
   return turned;
 }
 
-// Whether the bundle may have light in a box.
+// Whether light of the group may reach a box (m).
 SHARED_FUNCTION bool boundsMeetBox(BeamBounds bounds, vec3 low, vec3 high) {
   uint way = bounds.kind & kWayMask;
   if (way == kEveryWay) return true;

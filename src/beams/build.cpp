@@ -58,36 +58,36 @@ class Builder {
   Builder(const Scene& sceneOf, const TransportSource& sourceOf, const TransportQuery& queryOf,
           const ShapedLight& lightOf, vec3 color, const BeamSettings& settingsOf,
           const CasterTriangle& surfaceOf, const VertexRays& verticesOf)
-      : scene(sceneOf),
-        source(sourceOf),
-        query(queryOf),
-        light(lightOf),
-        bandColor(color),
-        settings(settingsOf),
-        surface(surfaceOf),
-        vertices(verticesOf),
-        facing(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f) {}
+      : scene_(sceneOf),
+        source_(sourceOf),
+        query_(queryOf),
+        light_(lightOf),
+        bandColor_(color),
+        settings_(settingsOf),
+        surface_(surfaceOf),
+        vertices_(verticesOf),
+        facing_(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f) {}
 
   void add(Triangle triangle, uint32_t forcedCuts, BeamSet& set) const {
     const vec3 flux = incident(triangle);
     if (!(flux.x + flux.y + flux.z > 0)) return;
     set.incidentFlux += flux;
     ++set.triangles;
-    if (vertices.areOnEdges && source.refines(query) && !sameWay(triangle))
+    if (vertices_.areOnEdges && source_.refines(query_) && !sameWay(triangle))
       for (Corner& corner : triangle)
         corner = {corner.weights, corner.position, kNone, rayWithin(triangle, corner.weights)};
-    refineTriangle(*this, triangle, settings.refineDepth, source.refines(query) ? forcedCuts : 0, set);
+    refineTriangle(*this, triangle, settings_.refineDepth, source_.refines(query_) ? forcedCuts : 0, set);
   }
 
   Refining judge(const Triangle& t, uint32_t cuts, BeamSet& set) const {
-    if (!source.refines(query) || cuts == 0) {
+    if (!source_.refines(query_) || cuts == 0) {
       keep(t, set);
     } else if (isShadowEdge(t)) {
       clip(t, cuts - 1, set);
     } else if (!sameWay(t)) {
       return Refining::cut;
     } else if (arrives(t[0].ray)) {
-      const bool isEven = settings.targets.empty() || (settings.isEvenAtSurface && leavesWhereItMeets(t));
+      const bool isEven = settings_.targets.empty() || (settings_.isEvenAtSurface && leavesWhereItMeets(t));
       if (!isEven) return Refining::askMiddles;
       keep(t, set);
     }
@@ -128,17 +128,17 @@ class Builder {
  private:
   vec3 incident(const Triangle& t) const {
     const vec3 middle = (t[0].position + t[1].position + t[2].position) / 3.0f;
-    return bandColor * airTransmittance(scene, query.emitter, middle) *
-           glm::max(facing * fluxOnto(light, query.emitter, t[0].position, t[1].position, t[2].position),
+    return bandColor_ * airTransmittance(scene_, query_.emitter, middle) *
+           glm::max(facing_ * fluxOnto(light_, query_.emitter, t[0].position, t[1].position, t[2].position),
                     vec3(0));
   }
 
   bool arrives(const OutgoingRay& ray) const {
     if (ray.flags != 0) return false;
-    if (!settings.stopAtSurfaces) return true;
+    if (!settings_.stopAtSurfaces) return true;
     vec2 texel;
     float distance;
-    return meetPlane(ray.position, ray.direction, settings.targets[0].plane, texel, distance) &&
+    return meetPlane(ray.position, ray.direction, settings_.targets[0].plane, texel, distance) &&
            ray.reach >= distance * (1 - 1e-3f) - 1e-4f;
   }
 
@@ -158,20 +158,20 @@ class Builder {
   Corner between(const Triangle& t, const Corner& a, const Corner& b) const {
     Corner middle;
     middle.weights = 0.5f * (a.weights + b.weights);
-    middle.position = surface.at(middle.weights).position;
+    middle.position = surface_.at(middle.weights).position;
     middle.ray = rayWithin(t, middle.weights);
     return middle;
   }
 
   OutgoingRay rayWithin(const Triangle& t, vec3 weights) const {
-    const float inset = vertices.areOnEdges ? kInsetOnEdges : kInset;
-    return source.rayAt(query, surface.at(mix(weights, middleWeights(t), inset)));
+    const float inset = vertices_.areOnEdges ? kInsetOnEdges : kInset;
+    return source_.rayAt(query_, surface_.at(mix(weights, middleWeights(t), inset)));
   }
 
   // Whether the ray at a side's middle lies off the middle of the rays at its ends by more than the
   // tolerance.
   bool bends(const Corner& a, const Corner& b, const Corner& middle) const {
-    for (const auto& [target, leastApproach] : settings.targets) {
+    for (const auto& [target, leastApproach] : settings_.targets) {
       if (dot(middle.ray.direction, target.normal) < leastApproach) continue;
       vec2 atA, atB, atMiddle;
       float distance;
@@ -179,7 +179,7 @@ class Builder {
       if (meets != meetPlane(b.ray.position, b.ray.direction, target, atB, distance)) return true;
       if (meets != meetPlane(middle.ray.position, middle.ray.direction, target, atMiddle, distance))
         return true;
-      if (meets && length(atMiddle - 0.5f * (atA + atB)) > settings.refineTolerance) return true;
+      if (meets && length(atMiddle - 0.5f * (atA + atB)) > settings_.refineTolerance) return true;
     }
     return false;
   }
@@ -234,7 +234,7 @@ class Builder {
     for (const auto& part : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
       Beam beam{};
       for (int i = 0; i < 3; ++i) {
-        const OutgoingRay ray = rayNear(t[corner], surface.positions * outline[part[i]]);
+        const OutgoingRay ray = rayNear(t[corner], surface_.positions * outline[part[i]]);
         beam.position[i] = ray.position;
         beam.direction[i] = ray.direction;
       }
@@ -249,17 +249,17 @@ class Builder {
   // glares.
   OutgoingRay rayNear(const Corner& corner, vec3 point) const {
     OutgoingRay ray = corner.ray;
-    const uint32_t steady = corner.vertex == kNone ? kNone : vertices.steadyTriangles[corner.vertex];
+    const uint32_t steady = corner.vertex == kNone ? kNone : vertices_.steadyTriangles[corner.vertex];
     if (steady == kNone) {
       ray.position += point - corner.position;
       return ray;
     }
-    const uvec3 at = vertices.mesh.triangles[steady];
+    const uvec3 at = vertices_.mesh.triangles[steady];
     mat3 positions, origins, directions;
     for (int i = 0; i < 3; ++i) {
-      positions[i] = vertices.placement.point(vertices.mesh.positions[at[i]]);
-      origins[i] = vertices.rays[at[i]].position;
-      directions[i] = vertices.rays[at[i]].direction;
+      positions[i] = vertices_.placement.point(vertices_.mesh.positions[at[i]]);
+      origins[i] = vertices_.rays[at[i]].position;
+      directions[i] = vertices_.rays[at[i]].direction;
     }
     const vec3 weights = barycentricOf(point, positions);
     ray.position = origins * weights;
@@ -267,15 +267,15 @@ class Builder {
     return ray;
   }
 
-  const Scene& scene;
-  const TransportSource& source;
-  const TransportQuery& query;
-  const ShapedLight& light;
-  const vec3 bandColor;
-  const BeamSettings& settings;
-  const CasterTriangle& surface;
-  const VertexRays& vertices;
-  const float facing;  // -1 where the light stands inside the caster and meets its triangles from behind
+  const Scene& scene_;
+  const TransportSource& source_;
+  const TransportQuery& query_;
+  const ShapedLight& light_;
+  const vec3 bandColor_;
+  const BeamSettings& settings_;
+  const CasterTriangle& surface_;
+  const VertexRays& vertices_;
+  const float facing_;  // -1 where the light stands inside the caster and meets its triangles from behind
 };
 
 CasterTriangle casterTriangle(const Object& object, const Mesh& mesh, const uvec3& triangle) {

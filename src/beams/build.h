@@ -11,28 +11,29 @@
 
 namespace nephroid {
 
-// A plane on which bending is judged, of rays that go through it at no less than a cosine.
+// A plane on which it is tested whether rays bend. Only rays count whose cosine with the normal is at least
+// `leastApproach`.
 struct BeamTarget {
   PlaneGrid plane;
   float leastApproach = 0;
 };
 
 struct BeamSettings {
-  // Times a triangle may be cut in four where its rays take different ways or bend (sources that can trace
-  // anywhere).
+  // How many times a triangle may be cut into four where its rays take different paths or bend. Only for
+  // sources that can trace from any point.
   uint32_t refineDepth = 3;
-  // Texels of `targets` that the ray of a side's midpoint may lie off the middle of its ends' before the
-  // triangle is cut.
+  // Texels of `targets`. A triangle is cut where the ray from the middle of a side meets the plane farther
+  // than this from the middle between the rays from the side's ends.
   float refineTolerance = 0.1f;
-  // Where it is judged whether rays bend. Without any, triangles are cut where their corners' rays part,
-  // alone.
+  // The planes on which bending is tested. Without any, triangles are cut only where the rays of their
+  // corners take different paths.
   std::vector<BeamTarget> targets;
-  // Only rays that go on through other casters are taken to bend.
+  // Test for bending only those rays that go on through other casters.
   bool isEvenAtSurface = false;
-  // Light is wanted on the first target itself, so rays that meet an opaque surface before it carry none.
+  // Light is wanted on the first target itself, so rays that meet an opaque surface before it carry no light.
   bool stopAtSurfaces = false;
-  // The part of a cell of water's corners that may be in shadow before the cell passes no light (Barczak and
-  // Olano, 3.4, whose leaves of several cells are counted in a shadow map).
+  // 0..1. A cell of water passes no light where a larger part of its corners than this is in shadow (Barczak
+  // and Olano, 3.4, who count the cells of a leaf in a shadow map).
   float shadowTolerance = 1;
 };
 
@@ -41,11 +42,13 @@ struct BeamSet {
   vec3 incidentFlux{0};  // lm onto the lit triangles of the caster, in this band
   uint64_t triangles = 0;
   uint64_t refined = 0;  // triangles that were cut
-  uint64_t split = 0;    // beams whose corners took different ways to the end, shared out corner by corner
+  uint64_t split = 0;  // beams whose corners still take different paths after all cuts; their flux is divided
+                       // among the corners
 };
 
-// The beams of one query. `bandColor` is the part of each channel that travels in the query's band: (1, 1, 1)
-// where all channels are bent alike. The order of the beams does not depend on the number of threads.
+// The beams of one query. `bandColor`: the part (0..1) of each color channel that belongs to the query's
+// band; (1, 1, 1) where all channels are refracted alike. The order of the beams does not depend on the
+// number of threads.
 BeamSet buildBeams(const Scene& scene, const TransportSource& source, const TransportQuery& query,
                    vec3 bandColor, const BeamSettings& settings);
 

@@ -1,8 +1,8 @@
-// Where a beam crosses a plane, and how much of that triangle each texel of a grid on the plane holds. Once
-// for C++ and GLSL.
+// The footprint of a beam on a plane, which is a triangle, and the part of it in each texel of a grid on the
+// plane. Written once for C++ and GLSL.
 //
-// Coverage is exact (the integral of the triangle over the texel), so a beam leaves its whole flux behind
-// whatever its size.
+// Coverage is exact: the area of the triangle within the texel. So the whole flux of a beam is kept, whatever
+// its size.
 #ifndef NEPHROID_BEAMS_FOOTPRINT_H
 #define NEPHROID_BEAMS_FOOTPRINT_H
 
@@ -14,12 +14,13 @@ SHARED_BEGIN
 // axisV)).
 struct PlaneGrid {
   vec3 corner;  // m, where texel (0, 0) begins
-  vec3 axisU;   // texels per metre along a row
-  vec3 axisV;   // texels per metre down the rows
+  vec3 axisU;   // texels per meter along a row
+  vec3 axisV;   // texels per meter down the rows
   vec3 normal;  // unit, the way light passes through
 };
 
-// Texel coordinates where a ray meets the plane. False where it moves away from the plane or along it.
+// Computes the texel coordinates where a ray meets the plane, and the distance (m) along the ray. Returns
+// false where the ray goes away from the plane or along it.
 SHARED_FUNCTION bool meetPlane(vec3 position, vec3 direction, PlaneGrid grid, OUT(vec2) texel,
                                OUT(float) rayDistance) {
   float approach = dot(direction, grid.normal);
@@ -33,18 +34,18 @@ SHARED_FUNCTION float doubledArea(vec2 a, vec2 b, vec2 c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// What a triangle's sides do within one row of texels: x where each enters the row and where it leaves it,
-// and how far it goes down it (texels; negative when it goes up).
+// The parts of a triangle's three sides within one row of texels. Of each side: x where it enters the row, x
+// where it leaves it, and how far it goes down in the row (texels; negative where it goes up).
 struct TriangleRow {
   vec3 ab;
   vec3 bc;
   vec3 ca;
-  vec3 perWidth;  // of ab, bc and ca: down the row over along it; 0 where the side is upright
+  vec3 perWidth;  // of ab, bc and ca: z / (y - x); 0 where the side is vertical
   float first;    // texels, the triangle's extent within the row
   float last;
 };
 
-// x against y along the sides ab, bc and ca.
+// The change of x per y along the sides ab, bc and ca; 0 for a horizontal side.
 SHARED_FUNCTION vec3 sideSlopes(vec2 a, vec2 b, vec2 c) {
   vec3 width = vec3(b.x - a.x, c.x - b.x, a.x - c.x);
   vec3 height = vec3(b.y - a.y, c.y - b.y, a.y - c.y);
@@ -84,9 +85,9 @@ SHARED_FUNCTION TriangleRow triangleInRow(vec2 a, vec2 b, vec2 c, vec3 slopes, f
   return cut;
 }
 
-// Integral over dy, along a side within the row, of how far it lies right of the column's left side (0 to 1).
-// Only the side's own ends and the column's are subtracted, which rounds nothing: the columns' shares of an
-// almost upright side add up to it.
+// Integral over y, along a side within the row, of its distance from the column's left edge (0..1). Only ends
+// of the side and of the column are subtracted, which is exact, so that the columns' parts of an almost
+// vertical side add up to the whole.
 SHARED_FUNCTION float sideCoverage(vec3 side, float perWidth, float column) {
   float right = column + 1.0f;
   float x0 = clamp(side.x, column, right);
@@ -96,16 +97,16 @@ SHARED_FUNCTION float sideCoverage(vec3 side, float perWidth, float column) {
   return ((x1 - x0) * mean + (max(side.y, right) - max(side.x, right))) * perWidth;
 }
 
-// Texels squared of the triangle that lie in the row's texel from `column` to `column` + 1.
+// The area of the triangle within one texel of the row, from `column` to `column` + 1; 1 is the whole texel.
 SHARED_FUNCTION float triangleCoverage(TriangleRow row, float column) {
   return abs(sideCoverage(row.ab, row.perWidth.x, column) + sideCoverage(row.bc, row.perWidth.y, column) +
              sideCoverage(row.ca, row.perWidth.z, column));
 }
 
-// Moves a footprint's corners to where float has digits to share it out with: texel t of the grid becomes t -
-// `base`. One smaller than a texel is also scaled to the size of one; it then lies across the lines x = 0 and
-// y = 0 between the texels -1 and 0, or inside texel 0 where it crosses no line. At a focus footprints are a
-// hundredth of a texel, and which side of a line their flux falls on is visible.
+// Moves a footprint's corners near the origin, where floats are precise enough: texel t of the grid becomes t
+// - `base`. A footprint smaller than a texel is also scaled to the size of a texel. It then lies across the
+// lines x = 0 and y = 0 between the texels -1 and 0, or inside texel 0 where it crosses no line. At a focus,
+// footprints are a hundredth of a texel wide, and it is visible on which side of a line their flux falls.
 SHARED_FUNCTION void centerFootprint(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c, OUT(vec2) base) {
   vec2 lower = min(min(a, b), c);
   vec2 upper = max(max(a, b), c);
@@ -121,20 +122,21 @@ SHARED_FUNCTION void centerFootprint(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c
   c = (c - shift) * scale;
 }
 
-// A centered footprint this thin is a line: its area has too few digits left to be shared out by coverage.
+// Whether a centered footprint is so thin that its area is not precise. It is then treated as a line.
 SHARED_FUNCTION bool isSliver(vec2 a, vec2 b, vec2 c) {
   vec2 extent = max(max(a, b), c) - min(min(a, b), c);
   float longest = max(extent.x, extent.y);
   return abs(doubledArea(a, b, c)) < 4e-3f * longest * longest;
 }
 
-// Pieces a sliver is shared out in.
+// The number of pieces that a sliver's flux is divided into.
 SHARED_FUNCTION int sliverSteps(vec2 a, vec2 c) {
   return int(clamp(ceil(2.0f * length(c - a)), 4.0f, 4096.0f));
 }
 
-// A sliver's flux runs along its longest side as a tent with its peak at the third corner. After
-// `sortSliver`, a and c are the ends of the longest side and `peak` is where along it b lies (0 to 1).
+// The flux of a sliver is spread along its longest side like a tent (a triangle function), with the peak at
+// the third corner. Reorders the corners so that a and c are the ends of the longest side, and returns where
+// b lies along it (0..1).
 SHARED_FUNCTION float sortSliver(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c) {
   vec2 corners[3];
   corners[0] = a;
@@ -154,15 +156,16 @@ SHARED_FUNCTION float sortSliver(INOUT(vec2) a, INOUT(vec2) b, INOUT(vec2) c) {
   return lengthSquared > 0.0f ? clamp(dot(b - a, c - a) / lengthSquared, 0.0f, 1.0f) : 0.5f;
 }
 
-// Part of a tent's flux that lies before `s` (0 to 1 along the longest side).
+// The part of a tent's flux that lies before `s` (0..1 along the longest side).
 SHARED_FUNCTION float tentBefore(float s, float peak) {
   if (s <= peak) return peak > 0.0f ? s * s / peak : 0.0f;
   return 1.0f - (1.0f - s) * (1.0f - s) / (1.0f - peak);
 }
 
-// Where along a line (0 at its start, 1 at its end) it lies in the slab from `low` to `low` + 1, by its
-// coordinate across the slab: `start`, and `along` from end to end. Slabs side by side share the line out
-// without gap or overlap. Of no length where it is never there.
+// The part of a line that lies in the slab between the coordinates `low` and `low` + 1, as parameters along
+// the line: 0 at its start, 1 at its end. The line begins at the coordinate `start` and ends at `start` +
+// `along`. Neighboring slabs have no gap and no overlap. The result is an empty interval where the line never
+// enters the slab.
 SHARED_FUNCTION vec2 lineInSlab(float start, float along, float low) {
   if (along == 0.0f) return vec2(floor(start) == low ? 0.0f : 1.0f, 1.0f);
   float a = (low - start) / along;

@@ -1,4 +1,4 @@
-// The beams of a scene's lights, in the portions that share planes.
+// The beams of a scene's lights, divided into portions.
 #pragma once
 
 #include <span>
@@ -12,30 +12,29 @@
 
 namespace nephroid {
 
-// Which casters' light a technique takes.
+// The casters whose light a technique draws.
 enum class Casters { all, water, solid };
 
-// For each portion what is to be asked: light of one lamp through one caster, along one choice of
-// reflections. The points of a line are one lamp as far as they shine on the caster from nearly one
-// direction.
+// The queries for each portion of the light: one lamp, one caster, one choice of reflections. Several points
+// of a line count as one lamp where they light the caster from nearly the same direction.
 std::vector<std::vector<BandQuery>> lightThroughCasters(const SceneTransport& transport, Paths paths,
                                                         Casters casters);
 
-// The beams of all these queries, in their order.
+// The beams of these queries, in order.
 std::vector<Beam> beamsOf(const Scene& scene, const TransportSource& source,
                           std::span<const BandQuery> queries, const BeamSettings& settings);
 
-// The beams of one portion, of triangles cut where the light within them parts or bends on its way to the
-// receivers in `boxes`. Where beams bend is judged on planes about where the light arrives, of `detail`
-// texels along each side.
+// The beams of one portion. Triangles are cut where their light takes different paths or bends on its way to
+// the receivers in `boxes`. Bending is tested on planes near the receivers, with `detail` texels along each
+// side.
 std::vector<Beam> refinedBeams(const Scene& scene, const TransportSource& source,
                                std::span<const BandQuery> queries, std::span<const ReceiverBox> boxes,
                                const BeamDivision& division, uint32_t detail);
 
-// Takes the weakest beams of all portions out, which carry no more than `part` of the flux between them.
+// Removes the weakest beams of all portions; together they carry at most the part `part` (0..1) of the flux.
 void leaveOutWeakest(std::vector<std::vector<Beam>>& portions, double part);
 
-// Whether all have the same colour, so that one channel and a tint tell all.
+// Whether all beams have the same color, so that one channel and a tint are enough.
 bool areOfOneColor(std::span<const Beam> beams);
 
 }  // namespace nephroid

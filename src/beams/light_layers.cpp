@@ -87,10 +87,10 @@ LayerGrid gridOf(std::span<const LayerBeam> beams, const Axes& axes, const Layer
   low = glm::max(glm::min(low, lowest), low - most);
   high = glm::min(glm::max(high, highest), high + most);
   const vec2 extent = high - low;
-  grid.texelsPerMetre = float(settings.texels) / std::max({extent.x, extent.y, 1e-6f});
-  grid.size = glm::floor(grid.texelsPerMetre * extent + 0.01f) + 1.0f;
+  grid.texelsPerMeter = float(settings.texels) / std::max({extent.x, extent.y, 1e-6f});
+  grid.size = glm::floor(grid.texelsPerMeter * extent + 0.01f) + 1.0f;
   grid.layers = float(settings.layers);
-  grid.layersPerMetre = (grid.layers - 1) / (last - first);
+  grid.layersPerMeter = (grid.layers - 1) / (last - first);
   grid.axisU = axes.u;
   grid.axisV = axes.v;
   grid.axisW = axes.w;
@@ -106,13 +106,13 @@ void fillLayer(std::span<const LayerBeam> beams, const LayerGrid& grid, vec3 cor
   const auto add = [&](std::size_t texel, double part) { sums[texel] += part * light; };
   const FootprintSharer sharer(uvec2(grid.size), add);
   const vec2 origin = vec2(corner) + (depth - corner.z) * grid.drift;
-  const float spacing = 1.001f / grid.layersPerMetre;
+  const float spacing = 1.001f / grid.layersPerMeter;
   for (const LayerBeam& beam : beams) {
     vec2 at[3], slope(0);
     float lit = 0, way = 0, perDepth = 0;
     for (int i = 0; i < 3; ++i) {
       const float ahead = depth - beam.start[i].z;
-      at[i] = grid.texelsPerMetre * (vec2(beam.start[i]) + ahead * beam.slope[i] - origin);
+      at[i] = grid.texelsPerMeter * (vec2(beam.start[i]) + ahead * beam.slope[i] - origin);
       if (ahead >= -relief - spacing && depth <= beam.end[i] + spacing) lit += 1.0f / 3;
       slope += beam.slope[i] / 3.0f;
       way += ahead * beam.length[i] / 3;
@@ -123,7 +123,7 @@ void fillLayer(std::span<const LayerBeam> beams, const LayerGrid& grid, vec3 cor
     light = double(lit * beam.flux * perDepth) * glm::dvec4(1, slope.x, slope.y, way);
     sharer.share(at[0], at[1], at[2]);
   }
-  const double perArea = double(grid.texelsPerMetre) * double(grid.texelsPerMetre);
+  const double perArea = double(grid.texelsPerMeter) * double(grid.texelsPerMeter);
   std::ranges::transform(sums, texels.begin(), [&](const glm::dvec4& sum) { return vec4(perArea * sum); });
 }
 
@@ -143,7 +143,7 @@ LightLayers lightInLayers(std::span<const Beam> beams, vec3 axis, const LayerSet
   light.texels.resize(settings.layers * layerTexels);
   const vec3 corner = axes.of(grid.corner);
   oneapi::tbb::parallel_for(0u, settings.layers, [&](uint32_t layer) {
-    fillLayer(along, grid, corner, corner.z + float(layer) / grid.layersPerMetre, settings.relief,
+    fillLayer(along, grid, corner, corner.z + float(layer) / grid.layersPerMeter, settings.relief,
               std::span(light.texels).subspan(layer * layerTexels, layerTexels));
   });
   return light;

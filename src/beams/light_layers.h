@@ -1,7 +1,7 @@
-// The light of beams in the volume that they cross, in layers one behind the other: what a medium there has
-// to scatter. The grid of layers once for C++ and GLSL.
+// The light of beams within a medium, stored in layers across the light: from it follows what the medium
+// scatters. The grid of layers is written once for C++ and GLSL.
 //
-// Between layers light is where it is on the way most of it goes from one to the next: `drift`.
+// Between two layers light is interpolated along the mean direction of the beams, which is `drift`.
 #ifndef NEPHROID_BEAMS_LIGHT_LAYERS_H
 #define NEPHROID_BEAMS_LIGHT_LAYERS_H
 
@@ -14,19 +14,19 @@ struct LayerGrid {
   vec3 axisU;   // unit, along a row of texels
   vec3 axisV;   // unit, down the rows
   vec3 axisW;   // unit, from layer to layer
-  vec2 drift;   // m along axisU and axisV for each along axisW
-  float texelsPerMetre;
-  float layersPerMetre;
+  vec2 drift;   // m along axisU and axisV per m along axisW
+  float texelsPerMeter;
+  float layersPerMeter;
   vec2 size;  // texels
   float layers;
 };
 
-// Texels along a row and down the rows, and layers, of a point.
+// The place of a point (m) in the grid: texels along a row, texels down the rows, and layers.
 SHARED_FUNCTION vec3 placeInLayers(LayerGrid grid, vec3 point) {
   vec3 offset = point - grid.corner;
   float depth = dot(offset, grid.axisW);
   vec2 across = vec2(dot(offset, grid.axisU), dot(offset, grid.axisV)) - depth * grid.drift;
-  return vec3(grid.texelsPerMetre * across, grid.layersPerMetre * depth);
+  return vec3(grid.texelsPerMeter * across, grid.layersPerMeter * depth);
 }
 
 SHARED_END
@@ -41,23 +41,23 @@ namespace nephroid {
 struct LayerSettings {
   uint32_t layers = 24;   // two or more
   uint32_t texels = 128;  // along a layer's longer side
-  float farthest = 1e7f;  // m: light is not followed farther through the medium
-  float relief = 0;       // m along the axis, of the surface at which the medium begins
+  float farthest = 1e7f;  // m; light is not followed farther through the medium
+  float relief = 0;       // m along the axis, the height of waves on the surface of the medium
 };
 
 struct LightLayers {
   LayerGrid grid{};
-  // Rows of each layer, layers one after the other: fluence rate (lux, mean of the channels, as it is where
-  // nothing is taken of it), and times that the slopes of the light along axisU and axisV for each m along
-  // axisW, and the length (m) of its way through the medium.
+  // [(layer * rows + row) * columns + column]. x: the fluence rate (lux, mean of the channels, without
+  // absorption by the medium). y, z, w: this value times the light's slopes along axisU and axisV (m per m
+  // along axisW), and times the length (m) of its way through the medium.
   std::vector<vec4> texels;
-  vec3 color{1};  // of all the light, over the mean of its channels
+  vec3 color{1};  // of all the light, divided by the mean of its channels
 };
 
-// Of what goes on within 78 degrees of unit `axis`, across which the layers stand; without texels where there
-// is none. A beam's light begins as far before its start as the surface is rough, and a layer
-// more, and ends a layer behind what it meets, so that none is missing between. All its flux
-// is in each layer that it crosses within the grid.
+// Takes the light that goes within 78 degrees of `axis` (unit); the layers stand across the axis. Without
+// such light the result has no texels. So that no light is missing near surfaces, a beam begins before its
+// start by the relief and one layer, and ends one layer behind the surface that it meets. Each layer that a
+// beam crosses within the grid holds all its flux.
 LightLayers lightInLayers(std::span<const Beam> beams, vec3 axis, const LayerSettings& settings);
 
 }  // namespace nephroid

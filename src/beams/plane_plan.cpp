@@ -70,7 +70,7 @@ PlaneSet planPlanes(const PlaneOrder& order, std::span<const Beam> beams, std::s
                w = extentAlong(set.axisW, arrivals, kDepthTail);
   set.windows[0] = windowAbout({u.low, v.low}, {u.high, v.high}, order.textureSize);
   set.windows[1] = windowAbout({u.first, v.first}, {u.last, v.last}, order.textureSize / 2);
-  const bool isOne = order.planes == 1 || w.high - w.low < 1e-4f / set.windows[0].texelsPerMetre;
+  const bool isOne = order.planes == 1 || w.high - w.low < 1e-4f / set.windows[0].texelsPerMeter;
   set.planes = isOne ? 1 : order.planes;
   set.firstDepth = isOne ? 0.5f * (w.low + w.high) : w.low;
   set.depthStep = isOne ? 0 : (w.high - w.low) / float(order.planes - 1);
@@ -78,7 +78,7 @@ PlaneSet planPlanes(const PlaneOrder& order, std::span<const Beam> beams, std::s
   set.farthestDepth = w.last + 0.01f * (w.last - set.nearestDepth) + 1e-3f;
   vec3 flux(0);
   for (const Beam& beam : beams) flux += beam.flux;
-  set.luxMetresSquaredPerUnit = max(flux, vec3(1e-20f)) / kUnitsOfAllFlux;
+  set.luxMetersSquaredPerUnit = max(flux, vec3(1e-20f)) / kUnitsOfAllFlux;
   return set;
 }
 

@@ -1,4 +1,4 @@
-// Where virtual planes stand across the light.
+// Chooses where virtual planes stand.
 #pragma once
 
 #include <span>
@@ -8,16 +8,16 @@
 
 namespace nephroid {
 
-// How planes stand, and how far along their axis the virtual camera begins to see.
+// How many planes, of which size, across which axis.
 struct PlaneOrder {
-  vec3 axis{0};  // unit
-  float nearestDepth = 0;
+  vec3 axis{0};            // unit
+  float nearestDepth = 0;  // m along the axis, where the virtual camera begins to see
   uint32_t planes = 1;
-  uint32_t textureSize = 512;
+  uint32_t textureSize = 512;  // texels along a side
 };
 
-// From the nearest to the farthest arrival, with windows about all of them. One plane where all arrive at one
-// depth; of no planes without arrivals.
+// Planes from the nearest to the farthest arrival, with windows around all arrivals. One plane where all
+// arrivals have the same depth; no planes where there are no arrivals.
 PlaneSet planPlanes(const PlaneOrder& order, std::span<const Beam> beams, std::span<const Arrival> arrivals);
 
 // Planes across the portion's axis (Iwasaki 2005b, 4.2: the mean direction of the light).

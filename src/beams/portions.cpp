@@ -14,7 +14,7 @@ constexpr double kMostAside = 0.001;     // part of the flux that planes may mis
 constexpr float kRoomAside = 0.1f;       // of a cosine: rays of a beam differ
 constexpr float kFlatFraction = 1e-4f;   // of a box's longest side: one this thin is a surface
 
-constexpr float kOctantApproach = 0.58f;  // a little more than of rays along an axis of the world
+constexpr float kOctantApproach = 0.58f;  // a little more than the cosine for rays along an axis of the world
 
 struct Line {
   vec3 origin, direction;
@@ -66,7 +66,7 @@ void addArrivals(const Line& line, std::span<const ReceiverBox> boxes, std::vect
   }
 }
 
-// Unit; zero where the light goes all ways alike.
+// Unit; zero where the light goes in all directions alike.
 vec3 meanDirection(std::span<const Beam> beams) {
   glm::dvec3 mean(0);
   double flux = 0;
@@ -78,7 +78,7 @@ vec3 meanDirection(std::span<const Beam> beams) {
   return glm::length(mean) > 1e-6 * flux ? vec3(glm::normalize(mean)) : vec3(0);
 }
 
-// Lines of beams that arrive, of as many as tell for all.
+// The lines of those beams that arrive, for a sample of the beams that represents all of them.
 std::vector<Line> arriving(std::span<const Beam> beams, std::span<const ReceiverBox> boxes) {
   std::vector<Line> lines;
   std::vector<Arrival> arrivals;
@@ -92,7 +92,7 @@ std::vector<Line> arriving(std::span<const Beam> beams, std::span<const Receiver
   return lines;
 }
 
-// Whether planes across `axis` hold all of these, but for a little.
+// Whether planes across `axis` hold almost all of this flux.
 bool goAlong(vec3 axis, std::span<const Line> lines) {
   double all = 0, aside = 0;
   for (const Line& line : lines) {
@@ -102,8 +102,8 @@ bool goAlong(vec3 axis, std::span<const Line> lines) {
   return aside <= kMostAside * all;
 }
 
-// No receiver that lies along two axes of the world is seen edge-on from the middle of an octant, and no
-// direction in it is far from there.
+// From the middle of an octant, a receiver along two axes of the world is never seen edge-on, and no
+// direction of the octant is far from the middle.
 std::size_t octantOf(vec3 direction) {
   return std::size_t((direction.x < 0 ? 1 : 0) + (direction.y < 0 ? 2 : 0) + (direction.z < 0 ? 4 : 0));
 }

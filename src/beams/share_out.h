@@ -1,4 +1,4 @@
-// A beam's footprint shared out among the texels of a grid, on the host.
+// Divides a beam's footprint among the texels of a grid, on the processor.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 
 namespace nephroid {
 
-// Calls add(index of the texel, rows first; part of the footprint that is there). The parts add up to one
-// where all of it is on the grid.
+// Calls add(index, part) for each texel: its index is row * size.x + column, and `part` is the part (0..1) of
+// the footprint in it. The parts add up to 1 where the whole footprint is on the grid.
 template <class Add>
 class FootprintSharer {
  public:
-  FootprintSharer(uvec2 size, const Add& addTo) : resolution(size), add(addTo) {}
+  FootprintSharer(uvec2 size, const Add& addTo) : resolution_(size), add_(addTo) {}
 
   // Corners in texels.
   void share(vec2 a, vec2 b, vec2 c) const {
@@ -25,7 +25,7 @@ class FootprintSharer {
     if (isSliver(localA, localB, localC)) return shareSliver(a, b, c);
     const double area = 0.5 * std::abs(doubledArea(localA, localB, localC));
     const vec3 slopes = sideSlopes(localA, localB, localC);
-    const vec2 last = min(upper, vec2(resolution) - 1.0f);
+    const vec2 last = min(upper, vec2(resolution_) - 1.0f);
     for (float y = std::max(lower.y, 0.0f); y <= last.y; ++y) {
       const TriangleRow row = triangleInRow(localA, localB, localC, slopes, y - base.y);
       const float lastX = std::min(std::floor(row.last) + base.x, last.x);
@@ -36,8 +36,8 @@ class FootprintSharer {
 
   void addAt(vec2 texel, double part) const {
     const float x = std::floor(texel.x), y = std::floor(texel.y);
-    if (x < 0 || y < 0 || x >= float(resolution.x) || y >= float(resolution.y)) return;
-    add(std::size_t(y) * resolution.x + std::size_t(x), part);
+    if (x < 0 || y < 0 || x >= float(resolution_.x) || y >= float(resolution_.y)) return;
+    add_(std::size_t(y) * resolution_.x + std::size_t(x), part);
   }
 
  private:
@@ -53,8 +53,8 @@ class FootprintSharer {
     }
   }
 
-  uvec2 resolution;
-  const Add& add;
+  uvec2 resolution_;
+  const Add& add_;
 };
 
 }  // namespace nephroid

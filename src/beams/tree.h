@@ -1,5 +1,6 @@
-// A hierarchy over beams, so that what lies off a bundle of them need not ask each (Barczak and Olano, 3.3;
-// there a quadtree over the water, here over the beams of any caster by where they begin).
+// A hierarchy of bounds over beams, so that whole groups of beams that cannot reach a place are skipped
+// (Barczak and Olano, 3.3). Their hierarchy is a quadtree over the water; this one groups the beams of any
+// caster by where they begin.
 #pragma once
 
 #include <span>
@@ -11,19 +12,20 @@
 namespace nephroid {
 
 struct BeamTree {
-  std::vector<Beam> beams;  // those near each other stand together
-  // Groups of kChildren, filled up with empty ones. The beams' own come first.
+  std::vector<Beam> beams;  // neighbors are stored together
+  // Groups of kChildren bounds, filled up with empty ones. The bounds of single beams come first.
   std::vector<BeamBounds> bounds;
   uint32_t root = 0;  // the first of the topmost group
 };
 
-// The way that a beam mainly goes.
+// The main direction of a beam, as BeamBounds has it.
 uint32_t wayOf(const Beam& beam);
 
-// Of beams that all go one way; of kEveryWay where a corner ray hardly does.
+// The bounds of beams that all go mainly along `way`. They become bounds of kEveryWay where a corner ray is
+// too far from that direction.
 BeamBounds boundsOf(std::span<const Beam> beams, uint32_t way);
 
-// `portions` holds for each portion its beams. The same beams give the same tree, whatever the threads.
+// `portions`: the beams of each portion. The same beams give the same tree, for any number of threads.
 BeamTree buildBeamTree(std::span<const std::vector<Beam>> portions);
 
 }  // namespace nephroid

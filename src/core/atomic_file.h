@@ -1,4 +1,4 @@
-// A file, or a folder, that is there whole or not at all.
+// Files and folders that are written completely or not at all.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace nephroid {
 
-// Write to `temporary()`, which lies beside the destination, then commit(). Without a commit, by an exception
-// or Ctrl-C, it is removed and what stood at the destination stays.
+// Write to `temporary()`, a file beside the destination, then call commit(). Without a commit (after an
+// exception or Ctrl-C) the temporary file is removed and the old file at the destination stays.
 class AtomicFile {
  public:
   // Throws RuntimeFailure where the folder cannot be written or the destination is a folder.
@@ -17,7 +17,7 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   const std::filesystem::path& temporary() const { return temporary_; }
-  // Throws RuntimeFailure where it cannot be put in place, Interrupted after Ctrl-C.
+  // Moves the file to its destination. Throws RuntimeFailure where that fails, and Interrupted after Ctrl-C.
   void commit();
 
  private:
@@ -26,11 +26,12 @@ class AtomicFile {
   bool isCommitted_ = false;
 };
 
-// Throws RuntimeFailure, as writing would, before the work whose result is to be written.
+// Throws RuntimeFailure where the file could not be written. Call it before long work whose result goes
+// there.
 void checkWritable(const std::filesystem::path& destination);
 
-// A folder of files. Write into `temporary()`, which lies beside the destination, then commit(). Without a
-// commit it is removed and what stood at the destination stays.
+// A folder of files. Write into `temporary()`, a folder beside the destination, then call commit(). Without a
+// commit the temporary folder is removed and the old folder at the destination stays.
 class AtomicFolder {
  public:
   // Throws RuntimeFailure where no folder can be made there.
@@ -40,8 +41,8 @@ class AtomicFolder {
   AtomicFolder& operator=(const AtomicFolder&) = delete;
 
   const std::filesystem::path& temporary() const { return temporary_; }
-  // In place of the folder that stood at the destination, which is removed with all that is in it. Throws
-  // RuntimeFailure where it cannot be put in place, Interrupted after Ctrl-C.
+  // Moves the folder to its destination. An old folder there is removed with everything in it. Throws
+  // RuntimeFailure where that fails, and Interrupted after Ctrl-C.
   void commit();
 
  private:
@@ -49,7 +50,8 @@ class AtomicFolder {
   std::filesystem::path temporary_;
 };
 
-// Throws RuntimeFailure, as writing would: there is no folder to put it into, or no right to.
+// Throws RuntimeFailure where the folder could not be written: its parent does not exist, or the user has no
+// right to write there.
 void checkFolderWritable(const std::filesystem::path& destination);
 
 void writeFileAtomically(const std::filesystem::path& destination, std::string_view bytes);

@@ -1,4 +1,4 @@
-// Files that can be made again, kept between runs.
+// The cache: files that can be made again, kept between runs.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace nephroid {
 // $XDG_CACHE_HOME/nephroid or ~/.cache/nephroid; empty when neither is known.
 std::filesystem::path cacheFolder();
 
-// The file was used now.
+// Marks the file as used now.
 void touchCached(const std::filesystem::path& file);
 
 // Removes the least recently used files of the extension until the rest fit in `bytes`. Another process may

@@ -1,3 +1,4 @@
+// The kinds of errors, and the search for the name that the user may have meant.
 #pragma once
 
 #include <stdexcept>
@@ -5,25 +6,25 @@
 
 namespace nephroid {
 
-// The input is wrong: exit status 2. The message is one line: what, in which file and line or key, and what
-// would be right.
+// The input is wrong; the exit status is 2. The message is one line: what is wrong, in which file and line or
+// key, and what would be right.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The input is right, but it could not be done here (no memory, no device, a file not writable): exit
-// status 1.
+// The input is right, but the work cannot be done here (no memory, no device, a file that cannot be written).
+// The exit status is 1.
 struct RuntimeFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Ctrl-C: whatever was being written is thrown away.
+// The user pressed Ctrl-C. Files that were not complete are removed.
 struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
   using std::runtime_error::runtime_error;
 };
 
-// Of `known`, the name nearest to `name` by edit distance; empty when none is near enough to be meant.
+// The name in `known` that is nearest to `name` by edit distance. Empty where no name is near enough.
 template <class Range>
 std::string nearestName(const std::string& name, const Range& known);
 

@@ -1,3 +1,4 @@
+// Hashes of bytes, for checksums and keys.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +9,16 @@
 
 namespace nephroid {
 
-// XXH3, 64 bits: for checksums and keys of files, not against forgery.
+// XXH3 with 64 bits. It serves checksums and keys of files; it does not protect against forgery.
 uint64_t hashBytes(std::span<const std::byte> bytes);
 
-// The hash of several pieces one after another, equal to that of the whole.
+// Hashes several pieces one after another. The value equals the hash of all their bytes in a row.
 class Hasher {
  public:
   Hasher();
   ~Hasher();
   void add(std::span<const std::byte> bytes);
-  // A number, or another value without padding.
+  // Adds a number, or another value without padding bytes.
   template <class T>
   void add(const T& value) {
     static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);

@@ -1,4 +1,4 @@
-// Pictures as the renderer and the sensors make them: float layers that are found by name.
+// Images made by the renderer and the sensors: layers of floats, found by name.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,15 @@ struct ImageChannel {
   std::vector<float> values;  // width * height, row by row, the first row at the top
 };
 
-// Row 0 is the top of a picture, and the row of a sensor that begins at its corner.
+// Row 0 is the top row of a picture. In a sensor's image, it is the row at the sensor's corner.
 struct Image {
   uint32_t width = 0;
   uint32_t height = 0;
   std::vector<ImageChannel> channels;
 
   std::size_t pixelCount() const { return std::size_t{width} * height; }
-  // The values of a channel, made (all zero) where there was none. A reference lasts until a channel is made.
+  // The values of a channel. A missing channel is added, filled with zeros. The reference is valid until a
+  // channel is added.
   std::vector<float>& channel(std::string_view name);
   // Null where there is no such channel.
   const std::vector<float>* find(std::string_view name) const;

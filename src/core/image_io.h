@@ -1,5 +1,5 @@
-// Pictures on disk. Readers throw InputError where a file is missing or wrong, writers RuntimeFailure where
-// it cannot be written; a file is there whole or not at all, and the same image gives the same bytes.
+// Image files. Readers throw InputError where a file is missing or wrong. Writers throw RuntimeFailure where
+// it cannot be written. A file is written completely or not at all, and the same image gives the same bytes.
 #pragma once
 
 #include <filesystem>
@@ -11,28 +11,28 @@
 
 namespace nephroid {
 
-// What is kept beside the pixels of an EXR: the command line, a version, a time.
+// Extra information in an EXR file: the command line, a version, a time.
 struct ImageAttribute {
   std::string name;
   std::variant<std::string, float, int> value;
 };
 
-// Every channel as 32-bit float.
+// Writes every channel as 32-bit float.
 void writeExr(const std::filesystem::path& file, const Image& image,
               const std::vector<ImageAttribute>& attributes = {});
-// All channels, sorted by name; half floats and integers become floats.
+// Reads all channels, sorted by name. Half floats and integers become floats.
 Image readExr(const std::filesystem::path& file);
-// Those of the kinds that writeExr writes; none where there is no such file.
+// The attributes of the kinds that writeExr writes. Empty where the file does not exist.
 std::vector<ImageAttribute> readExrAttributes(const std::filesystem::path& file);
 
 // The bytes are taken as sRGB.
 void writePng(const std::filesystem::path& file, const ByteImage& image);
-// The bytes of such a file.
+// Returns the bytes that writePng would write.
 std::string encodePng(const ByteImage& image);
-// As RGBA, whatever the file holds. No side may be longer than `largestSide` pixels.
+// Reads a PNG of any kind as RGBA. No side may be longer than `largestSide` pixels.
 ByteImage readPng(const std::filesystem::path& file, uint32_t largestSide = 1u << 15);
 
-// 0 to 1, undoing the sRGB transfer curve (IEC 61966-2-1).
+// The sRGB transfer curve (IEC 61966-2-1) and its inverse; values 0..1.
 float linearFromSrgb(float encoded);
 float srgbFromLinear(float linear);
 

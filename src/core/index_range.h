@@ -1,4 +1,4 @@
-// What oneapi::tbb::parallel_for splits.
+// The range of indices that oneapi::tbb::parallel_for splits among threads.
 #pragma once
 
 #include <oneapi/tbb/blocked_range.h>

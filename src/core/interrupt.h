@@ -1,5 +1,5 @@
-// Ctrl-C and SIGTERM: asked for once, work is unwound by an Interrupted exception; asked for twice, the
-// process ends.
+// Ctrl-C and SIGTERM. The first one ends the work by an Interrupted exception; the second one ends the
+// process.
 #pragma once
 
 namespace nephroid {
@@ -7,7 +7,7 @@ namespace nephroid {
 void catchInterrupts();
 bool isInterrupted();
 void throwIfInterrupted();
-// Work is not unwound but ended early, and what there is of it is kept.
+// Clears the interrupt: the work ends early, and what is finished of it is kept.
 void acknowledgeInterrupt();
 
 }  // namespace nephroid

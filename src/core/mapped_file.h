@@ -1,3 +1,4 @@
+// Files mapped into memory for reading.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,9 @@ struct MappedFile {
   uint64_t size = 0;
 };
 
-// `kind` is what the file should be, for messages: "table". InputError where it is missing, is no file or is
-// shorter than `headerBytes`; RuntimeFailure where it cannot be mapped.
+// Maps a file. `kind` names what the file should be, for messages: "table". Throws InputError where the file
+// is missing, is not a regular file or is shorter than `headerBytes`, and RuntimeFailure where it cannot be
+// mapped.
 MappedFile mapFile(const std::filesystem::path& file, const std::string& kind, uint64_t headerBytes);
 
 }  // namespace nephroid

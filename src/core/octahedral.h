@@ -1,5 +1,5 @@
-// Directions on a square (Cigolle et al. 2014), once for C++ and GLSL: uniform where angles crowd at the
-// poles.
+// Maps directions to a square and back (the octahedral map, Cigolle et al. 2014). Unlike two angles, it has
+// no dense points at poles. Written once for C++ and GLSL.
 #ifndef NEPHROID_CORE_OCTAHEDRAL_H
 #define NEPHROID_CORE_OCTAHEDRAL_H
 
@@ -11,7 +11,7 @@ SHARED_FUNCTION float octahedralSign(float x) {
   return x >= 0.0f ? 1.0f : -1.0f;
 }
 
-// A unit vector on the square [0, 1]^2.
+// The place of a unit vector on the square [0, 1]^2, and the way back.
 SHARED_FUNCTION vec2 octahedralFromDirection(vec3 d) {
   float norm = abs(d.x) + abs(d.y) + abs(d.z);
   vec2 p = vec2(d.x, d.y) / norm;

@@ -36,7 +36,7 @@ std::string describeDuration(double seconds) {
 
 void Progress::throwIfEnded() const {
   throwIfInterrupted();
-  if (isCancelled_) throw Interrupted();
+  if (isCanceled_) throw Interrupted();
 }
 
 Progress::State Progress::state() const {

@@ -1,5 +1,5 @@
-// What a long step shows of itself: a bar with the time left, on standard error. It is also where Ctrl-C, or
-// the step being cancelled, is noticed.
+// The progress of a long step: a bar with the time left, on standard error. Ctrl-C and cancellation are also
+// noticed here.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace nephroid {
 
-// One is passed by reference to whatever takes long. Default-made it shows nothing.
+// Functions that take long get one by reference. A default-constructed Progress shows nothing.
 class Progress {
  public:
   enum class Display { none, bar };
@@ -21,25 +21,25 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // A step of `total` equal parts starts, in place of the one before. `name` is what a user reads: "light
+  // Starts a step of `total` equal parts and ends the one before. `name` is shown to the user: "light
   // transport table".
   void begin(std::string name, uint64_t total);
-  // `count` more parts are done. From any thread. Throws Interrupted after Ctrl-C or `cancel`.
+  // Counts `count` more parts as done. Any thread may call it. Throws Interrupted after Ctrl-C or `cancel`.
   void advance(uint64_t count = 1);
-  // `done` of the parts are done, and the step has another name. Leaves Ctrl-C to the caller.
+  // Sets the number of parts done, and a new name for the step. Does not check for Ctrl-C.
   void show(std::string name, uint64_t done);
-  // The step is over: its bar is wiped.
+  // Ends the step and removes its bar.
   void finish();
 
-  // How far the step is, for who looks on from another thread.
+  // The progress of the step, for another thread to show.
   struct State {
     std::string name;  // empty before the first step
     double fraction = 0;
   };
   State state() const;
-  // From any thread, once and for all: the work is unwound as by Ctrl-C.
-  void cancel() { isCancelled_ = true; }
-  bool isCancelled() const { return isCancelled_; }
+  // Ends the work as Ctrl-C does. Any thread may call it; it cannot be undone.
+  void cancel() { isCanceled_ = true; }
+  bool isCanceled() const { return isCanceled_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -48,7 +48,7 @@ class Progress {
 
   bool isShown_ = false;
   bool isDrawn_ = false;
-  std::atomic<bool> isCancelled_{false};
+  std::atomic<bool> isCanceled_{false};
   mutable std::mutex naming_;  // of the name and the total
   std::string name_;
   uint64_t total_ = 0;
@@ -58,7 +58,7 @@ class Progress {
   std::mutex drawing_;
 };
 
-// A bar where standard error is a terminal and the user did not ask for quiet.
+// A bar where standard error is a terminal and `isQuiet` is false.
 Progress::Display progressDisplay(bool isQuiet);
 
 // "45 s", "3 min 20 s", "2 h 05 min".

@@ -1,3 +1,4 @@
+// Random numbers that are the same on every machine.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,7 @@ class Random {
     return shifted >> rotation | shifted << (-rotation & 31);
   }
 
-  // In [0, 1), 24 bits of it.
+  // A number in [0, 1) with 24 random bits.
   float uniform() { return static_cast<float>(next() >> 8) * 0x1p-24f; }
 
  private:

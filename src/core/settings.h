@@ -1,5 +1,5 @@
-// Settings as their owner declares them, once. Command line, panels, help, the attributes of images and the
-// stats are made from these lists.
+// Settings. Each owner declares its settings once, in a list. The command line, the viewer's panels, the
+// help, the attributes of images and the stats are all made from these lists.
 #pragma once
 
 #include <any>
@@ -14,45 +14,48 @@
 
 namespace nephroid {
 
-// fraction: a number above 0, which a user may give in percent.
+// whole: a whole number. real: any number. fraction: a number above 0, which users may also give in percent.
+// choice: one of several names.
 enum class SettingKind { whole, real, fraction, choice };
 
-// One member of an owner's struct. Values pass as doubles: those of a choice as the place among its names,
-// whole numbers up to 2^53.
+// One setting: a member of its owner's struct. Values are passed as doubles: whole numbers up to 2^53; a
+// choice as its index among the names.
 struct Setting {
   const char* flag;  // without its dashes
   const char* help;  // one sentence, with the unit
   SettingKind kind = SettingKind::whole;
-  double least = 0;  // of numbers
+  double least = 0;  // smallest and largest value of a number
   double most = 0;
   std::span<const char* const> names{};  // of a choice
   double (*get)(const void* owner) = nullptr;
   void (*set)(void* owner, double value) = nullptr;
-  const char* wordForZero = nullptr;  // what a user writes for 0 where a sensor is measured, if anything
-  bool isBaked = false;               // what `nephroid bake` writes depends on it
+  const char* wordForZero =
+      nullptr;           // a word that users may write for 0 where a sensor is measured; null: none
+  bool isBaked = false;  // a file of `nephroid bake` depends on it
 };
 
-// As the command line takes it.
+// The value as it is written on the command line.
 std::string textOf(const Setting& setting, const void* owner);
 
-// Whether its value is one that a user could have chosen; a reason to stop that is not given is none.
+// Whether the present value is one that a user can choose, so that the help can show it as the default. (0
+// passes, for example, means that no number of passes was given.)
 bool hasDefault(const Setting& setting, const void* owner);
 
-// "1 to 256", "0 to 1"; the names of a choice with | between them.
+// The values that are accepted: "1 to 256", "0 to 1", or the names of a choice with | between them.
 std::string rangeOf(const Setting& setting);
 
-// Sets it from what the command line takes; empty, or else what is wrong with `text`, in words. With
-// `takesWord` the word for zero is taken.
+// Sets the value from the text of the command line. Returns an empty text, or an error message where `text`
+// is wrong. With `takesWord` it accepts the word for zero.
 std::string setFromText(const Setting& setting, void* owner, std::string_view text, bool takesWord = false);
 
-// The settings of one owner, and where their values are.
+// The settings of one owner, and the struct that holds their values.
 struct SettingsView {
   const char* owner = "";  // a heading: "Transport", "light-volumes"
   std::span<const Setting> settings;
   void* values = nullptr;
 };
 
-// {flag, value} of each, as the command line takes them.
+// {flag, value} of each setting, as they are written on the command line.
 std::vector<std::pair<std::string, std::string>> textsOf(const SettingsView& view);
 
 template <class Member>
@@ -63,8 +66,8 @@ struct MemberTraits<ValueType OwnerType::*> {
   using Value = ValueType;
 };
 
-// A setting that is a member of its owner's struct, such as &BeamSettings::refineDepth. What users call the
-// enumerators of a choice is namesOf(Enum), in their order.
+// Makes a setting from a member of its owner's struct, such as &BeamSettings::refineDepth. For a choice, the
+// function namesOf(Enum) gives the users' names of the enumerators, in order.
 template <auto Member>
 constexpr Setting memberSetting(const char* flag, const char* help, SettingKind kind) {
   using Owner = typename MemberTraits<decltype(Member)>::Owner;
@@ -114,14 +117,14 @@ constexpr Setting choiceSetting(const char* flag, const char* help, bool isBaked
   return setting;
 }
 
-// What users call an enumerator.
+// The users' name of an enumerator.
 template <class Choice>
 constexpr const char* nameOf(Choice choice) {
   return namesOf(choice)[static_cast<std::size_t>(choice)];
 }
 
-// Structs of settings by their type, each with its defaults until it is changed: the own settings of
-// whatever plugs in.
+// The settings of techniques and other plug-ins: one struct for each type. A struct that was never changed
+// has its default values.
 class OwnSettings {
  public:
   template <class Struct>
@@ -158,7 +161,7 @@ class OwnSettings {
   std::map<std::type_index, Entry> entries_;
 };
 
-// A struct of settings that plugs in, and its list.
+// The list of settings of a plug-in, and how its struct is found.
 struct SettingsOwner {
   const char* owner;
   std::span<const Setting> settings;

@@ -1,6 +1,6 @@
-// What lets one file be C++ and GLSL: maths and structs included from both are written between SHARED_BEGIN
-// and SHARED_END, with functions marked SHARED_FUNCTION and results OUT(type) / INOUT(type). Structs are laid
-// out as GLSL `scalar`.
+// Macros for files that are both C++ and GLSL. Shared structs and functions are written between SHARED_BEGIN
+// and SHARED_END; functions are marked SHARED_FUNCTION, and output parameters OUT(type) or INOUT(type).
+// Structs have GLSL's layout `scalar`.
 #ifndef NEPHROID_CORE_SHARED_LANGUAGE_H
 #define NEPHROID_CORE_SHARED_LANGUAGE_H
 

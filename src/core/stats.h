@@ -1,4 +1,4 @@
-// What a run reports of itself: the object behind `--stats FILE.json`.
+// The figures that a run reports with `--stats FILE.json`.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +15,28 @@ struct PassTime {
 };
 
 struct Stats {
-  std::string device;     // what drew, as its driver names it
+  std::string device;     // the Vulkan device, by its driver's name
   std::string technique;  // "illumination-textures", "none"
   std::string source;     // "table", "traced"
-  // What was chosen, as the command line takes it: {"planes", "4"}.
+  // All settings, as they are written on the command line: {"planes", "4"}.
   std::vector<std::pair<std::string, std::string>> settings;
-  double prepareMilliseconds = 0;  // once: loading, tables, what a moved light leaves as it is
-  double frameMilliseconds = 0;    // median over the frames; all that a moved light would change
-  std::vector<PassTime> passes;    // of the median frame, in the order they ran
+  double prepareMilliseconds =
+      0;  // work done once: loading, tables, all that does not change when a light moves
+  double frameMilliseconds = 0;  // median over the frames; each does all work that a moved light would need
+  std::vector<PassTime> passes;  // of the median frame, in the order they ran
   std::vector<std::pair<std::string, uint64_t>>
-      counts;                // "vertices", "beams", "rays": as many as there is to tell
+      counts;                // "vertices", "beams", "rays", and others that depend on the technique
   uint64_t memoryBytes = 0;  // on the device
 };
 
-// In place of the count of that name, if there is one.
+// Sets a count and replaces the old one of that name.
 void setCount(Stats& stats, const std::string& name, uint64_t count);
 
 // {"device", "technique", "source", "settings": {...}, "prepare_ms", "frame_ms", "passes": [{"name", "ms"}],
 // "counts": {...}, "memory_bytes"}
 std::string statsJson(const Stats& stats);
 
-// The middle value; the mean of the middle two where their number is even; 0 of none.
+// The middle value, or the mean of the middle two where there is an even number. 0 for an empty list.
 double median(std::vector<double> values);
 
 }  // namespace nephroid

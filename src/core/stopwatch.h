@@ -1,11 +1,11 @@
-// Time that goes by.
+// Measures elapsed time.
 #pragma once
 
 #include <chrono>
 
 namespace nephroid {
 
-// Runs from where it is made.
+// Starts when it is constructed.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

@@ -1,3 +1,4 @@
+// A full turn, as an angle.
 #pragma once
 
 #include <numbers>

@@ -1,10 +1,13 @@
-// glTF 2.0 (.gltf, .glb): meshes, node transforms, materials, lights, cameras. Read for light transport: a
-// material is
-//   dielectric  when KHR_materials_transmission lets half of the light or more through (thin-walled without a
-//               KHR_materials_volume thickness; index of refraction from _ior and _dispersion),
-//   mirror      when it is metallic (0.5 or more) and smooth (roughness 0.1 or less, and no texture of
-//   either), diffuse     otherwise, with its base colour and its texture.
-// All throw InputError.
+// Reads glTF 2.0 (.gltf, .glb): meshes, node transforms, materials, lights and cameras. A material becomes
+//
+//   dielectric  where KHR_materials_transmission lets half of the light or more through; it is thin-walled
+//               where KHR_materials_volume gives no thickness; its index of refraction is from
+//               KHR_materials_ior and KHR_materials_dispersion
+//   mirror      where it is metallic (0.5 or more) and smooth (roughness 0.1 or less), without a texture
+//               for either
+//   diffuse     otherwise, with its base color and its texture
+//
+// All functions throw InputError.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +17,10 @@
 
 namespace nephroid {
 
-// The file as a scene: its first camera, or one that frames what it holds.
+// Loads the file as a scene at `time` (s). Without a camera in the file, one is chosen that shows everything.
 Scene loadGltfScene(const std::filesystem::path& file, double time);
 
-// What a file adds to a scene. Indices count from the part's own arrays.
+// The contents of a file. Indices refer to the arrays of this struct.
 struct GltfPart {
   std::vector<Texture> textures;
   std::vector<Material> materials;
@@ -28,7 +31,7 @@ struct GltfPart {
 };
 GltfPart loadGltf(const std::filesystem::path& file);
 
-// The geometry alone, all nodes as one mesh.
+// Loads only the geometry: all nodes as one mesh.
 Mesh loadGltfMesh(const std::filesystem::path& file);
 
 }  // namespace nephroid

@@ -1,5 +1,5 @@
-// A glTF file opened, and its arrays read with every offset, count and index held against what is there:
-// tinygltf checks none.
+// Opens glTF files and reads their arrays. Every offset, count and index is checked here, because tinygltf
+// does not check them.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -12,9 +12,9 @@
 namespace nephroid {
 
 struct GltfFile {
-  std::string source;  // begins every error
+  std::string source;  // the file's name, with which every error message begins
   tinygltf::Model model;
-  // The bytes of images that stand by themselves; those in buffers are found through their buffer view.
+  // The bytes of images that are not in a buffer view.
   std::vector<std::vector<unsigned char>> images;
 
   [[noreturn]] void fail(const std::string& what) const;
@@ -22,10 +22,11 @@ struct GltfFile {
 
 GltfFile openGltf(const std::filesystem::path& file);
 
-// `index` as a place among `count` of `what` ("accessor").
+// Checks that `index` is less than `count`. `what` is what it counts, for the error message: "accessor".
 std::size_t gltfIndex(const GltfFile& file, int index, std::size_t count, const char* what);
 
-// An accessor of vectors with `components` numbers; normalized integers come as fractions.
+// The numbers of an accessor of vectors with `components` numbers each. Normalized integers are returned as
+// fractions.
 struct GltfNumbers {
   std::size_t components = 0;
   std::vector<double> values;
@@ -34,10 +35,10 @@ struct GltfNumbers {
 GltfNumbers readGltfNumbers(const GltfFile& file, int accessor, std::size_t fewestComponents,
                             std::size_t mostComponents);
 
-// The scalar whole numbers of an accessor.
+// Reads an accessor of single whole numbers.
 std::vector<uint32_t> readGltfIndices(const GltfFile& file, int accessor);
 
-// The image decoded, sRGB made linear.
+// Decodes an image, and converts it from sRGB to linear.
 Texture readGltfImage(const GltfFile& file, int image);
 
 }  // namespace nephroid

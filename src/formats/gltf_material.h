@@ -1,3 +1,4 @@
+// Materials of a glTF file.
 #pragma once
 
 #include "formats/gltf_file.h"
@@ -5,16 +6,16 @@
 namespace nephroid {
 
 struct GltfMaterial {
-  Material material;  // its colorTexture is not set
-  int image = -1;     // of the base colour, for a diffuse material
+  Material material;  // without its colorTexture
+  int image = -1;     // index of the base color's image, for a diffuse material; -1: none
   int texcoordSet = 0;
   glm::dmat3 texcoordTransform{1};  // KHR_texture_transform
 };
 
-// The material `index`; the format's default for -1.
+// Reads the material `index`; -1 gives glTF's default material.
 GltfMaterial readGltfMaterial(const GltfFile& file, int index);
 
-// A number of an extension, within `lowest` and `highest`.
+// Reads a number of an extension. Throws InputError where it is not between `lowest` and `highest`.
 double gltfNumber(const GltfFile& file, const tinygltf::Value& object, const char* key, double byDefault,
                   double lowest, double highest);
 

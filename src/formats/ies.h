@@ -8,10 +8,10 @@
 
 namespace nephroid {
 
-// The profile in an LM-63 file of photometric type A, B or C, with its candela multiplier and ballast factors
-// in its peak. Keywords, sizes and TILT=INCLUDE are checked and left out: the values hold as they were
-// measured. Throws InputError with the line where the file is wrong, names a file of tilt factors, or gives
-// no light.
+// Reads the profile of an LM-63 file of photometric type A, B or C. The candela multiplier and the ballast
+// factors are included in its peak. Keywords, the lamp's size and TILT=INCLUDE are checked but not used.
+// Throws InputError, with the line, where the file is wrong, where it refers to another file for tilt
+// factors, or where all its values are 0.
 Profile loadIes(const std::filesystem::path& file);
 
 // As above, from the text of a file; `source` begins every error.

@@ -1,3 +1,4 @@
+// Loads a scene from a file of any supported format.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,8 @@ namespace nephroid {
 
 // The scene in a .toml, .gltf or .glb file, as it stands at `time` (s). Everything in it has been checked:
 // indices are in range, numbers are finite and in range, directions are unit. Throws InputError for whatever
-// is wrong with it. Simulated water goes on from `waves`, where a caller keeps them from time to time.
+// is wrong with it. With `waves`, simulated water continues from the state of the last call, so that a later
+// time costs less.
 Scene loadScene(const std::filesystem::path& file, double time = 0, WaveRuns* waves = nullptr);
 
 }  // namespace nephroid

@@ -8,25 +8,25 @@
 
 namespace nephroid {
 
-// The geometry of an .obj, .ply, .3ds, .gltf or .glb file as one mesh, by its extension. Normals are the
-// file's where it gives one for every corner, otherwise averaged by area. Texture coordinates are left out: a
-// material given in a scene file has no texture, and vertices split along their seams would only cost rays.
-// Throws InputError.
+// Reads the geometry of an .obj, .ply, .3ds, .gltf or .glb file as one mesh; the extension decides. Normals
+// are taken from the file where every corner has one; otherwise they are averaged by area. Texture
+// coordinates are left out: materials of a scene file have no texture, and vertices that are split at texture
+// seams would only cost rays. Throws InputError.
 Mesh loadMeshFile(const std::filesystem::path& file);
 
-// Where a mesh named in a scene file is: beside the scene file, then in the directories of NEPHROID_MODELS
-// (separated by colons; by default where Debian's glmark2-data has its models). Throws InputError, beginning
-// with `where`, naming the places.
+// Finds a mesh that is named in a scene file. Looks beside the scene file, then in the directories of
+// NEPHROID_MODELS (separated by colons; by default the models of Debian's glmark2-data). Throws InputError
+// with the places where it looked; the message begins with `where`.
 std::filesystem::path findModel(const std::filesystem::path& name,
                                 const std::filesystem::path& sceneDirectory, const std::string& where);
 
-// The whole of a file. Throws InputError when it is missing, no regular file, or larger than `largest` bytes.
+// Reads a whole file. Throws InputError when it is missing, no regular file, or larger than `largest` bytes.
 std::string readFile(const std::filesystem::path& file, std::uintmax_t largest);
 
-// The extension of the file in small letters, with its dot.
+// The file's extension in small letters, with its dot.
 std::string lowerExtension(const std::filesystem::path& file);
 
-// The text with line breaks and other control characters as blanks, so that an error stays on one line.
+// Replaces line breaks and other control characters by blanks, so that an error message is one line.
 std::string oneLine(std::string text);
 
 }  // namespace nephroid

@@ -1,5 +1,5 @@
 // One reader for each mesh format: from the bytes of a file to a finished mesh (finishMesh). `source` names
-// the file in errors. All throw InputError, and nothing else, on whatever bytes they are given.
+// the file in errors. For any bytes they return a mesh or throw InputError, and never another exception.
 #pragma once
 
 #include <string>

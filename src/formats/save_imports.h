@@ -1,4 +1,4 @@
-// What was changed of imported things, as the scene that imports them has it.
+// Writes changes of imported objects, lights and materials into the scene that imports them.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace nephroid {
 
-// Of what the [[object]] `table` imports: things whose names begin with `prefix`. Names of those that are
-// saved go from `notSaved`.
+// Saves the changes of everything that the [[object]] `table` imports, whose names begin with `prefix`.
+// Removes the names of what was saved from `notSaved`.
 void saveImported(const Scene& before, const Scene& after, const std::string& prefix,
                   const toml::table& table, TomlText& text, std::vector<std::string>& notSaved);
 
-// As a scene file has it, degrees.
+// The Euler angles (degrees) of a scene file.
 vec3 eulerDegrees(quat rotation);
 
 }  // namespace nephroid

@@ -1,3 +1,4 @@
+// Reads scene files in TOML, table by table.
 #pragma once
 
 #include <filesystem>
@@ -10,32 +11,34 @@ namespace nephroid {
 
 // The scene in a .toml file. Throws InputError.
 Scene loadTomlScene(const std::filesystem::path& file, double time, WaveRuns* waves = nullptr);
-// The same of its text, which may have changed since; and that text as the file has it.
+// Reads a scene from `text`, which stands for the text of `file` and may differ from the text on disk.
+// readSceneFile returns the text on disk.
 Scene readTomlScene(const std::string& text, const std::filesystem::path& file, double time,
                     WaveRuns* waves = nullptr);
 std::string readSceneFile(const std::filesystem::path& file);
 
-// The parts of it. Each adds to `scene` what its tables say.
+// Each of these reads one kind of table and adds it to `scene`.
 void readMaterials(std::vector<TomlTable> tables, Scene& scene);
 void readLights(std::vector<TomlTable> tables, Scene& scene);
 // The keys "phase" and "g" of what scatters light.
 void readPhase(TomlTable& table, PhaseType& phase, float& g);
 Medium readMedium(TomlTable table, const std::filesystem::path& folder);
 
-// As above; gives the first camera that was imported.
+// Adds objects to `scene`. Returns the first camera of the imported files, if there is one.
 std::optional<Camera> readObjects(std::vector<TomlTable> tables, Scene& scene, WaveRuns* waves = nullptr);
 
 // Euler angles in degrees, applied X first.
 quat rotationOf(vec3 degrees);
 
-// Of a dielectric.
+// Limits of a dielectric's index of refraction and Abbe number.
 inline constexpr Range kIor{kLowestIor, kHighestIor};
 inline constexpr Range kAbbe{1, 10000};
 
-// The mesh of an [[object]] that has a `shape`; sets object.water for water.
+// Makes the mesh of an [[object]] with the key "shape". For water it also sets object.water.
 Mesh readShape(TomlTable& table, Object& object, const Scene& scene, WaveRuns* waves);
 
-// The key `name`, or `byDefault`; an error where one of `existing` has it already.
+// Reads the key "name"; without it the name is `byDefault`. Throws InputError where one of `existing` has the
+// same name.
 template <class Named>
 std::string readName(TomlTable& table, const std::vector<Named>& existing, const std::string& byDefault) {
   const auto given = table.text("name");

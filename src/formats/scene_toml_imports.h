@@ -1,4 +1,4 @@
-// What a scene changes of what a file brings that it imports.
+// The changes that a scene makes to the contents of an imported file.
 #pragma once
 
 #include <string>
@@ -16,7 +16,8 @@ struct ImportChanges {
 
 ImportChanges importChanges(TomlTable& table);
 
-// To the elements of `scene` whose names are `prefix` and then the name of a table. Throws InputError.
+// Applies the changes to the elements of `scene` whose names are `prefix` followed by a table's name. Throws
+// InputError.
 void applyImportChanges(ImportChanges changes, const std::string& prefix, Scene& scene);
 
 }  // namespace nephroid

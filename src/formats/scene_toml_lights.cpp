@@ -95,7 +95,7 @@ void zoomTo(float outerAngle, Light& light) {
 }
 
 // As a moving head does: tilted about its horizontal axis (up is positive), then turned about +Y (to the
-// left, as seen from above anticlockwise, is positive).
+// left, as seen from above counterclockwise, is positive).
 vec3 aimed(vec3 direction, float pan, float tilt) {
   const vec3 right = lightFrame(direction).right;
   return normalize(glm::angleAxis(glm::radians(pan), vec3(0, 1, 0)) *

@@ -70,7 +70,7 @@ ObjectTransform readTransform(TomlTable& table) {
   return transform;
 }
 
-// Centres the box on the origin and makes its longest side `fit`, before the rest of the placement.
+// Centers the box on the origin and makes its longest side `fit`, before the rest of the placement.
 Placement fitted(const ObjectTransform& transform, const Box& box) {
   Placement placement = transform.placement;
   if (!transform.fit) return placement;

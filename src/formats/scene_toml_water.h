@@ -9,10 +9,10 @@
 
 namespace nephroid {
 
-// "segments" or "vertices".
+// Reads the key "segments" or "vertices".
 Density readDensity(TomlTable& table);
 
-// At the scene's time; sets object.water.
+// Makes the mesh of water at the scene's time, and sets object.water.
 Mesh readWater(TomlTable& table, Object& object, const Scene& scene, WaveRuns* waves);
 
 }  // namespace nephroid

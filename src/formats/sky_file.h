@@ -7,8 +7,9 @@
 
 namespace nephroid {
 
-// An EXR in equal angles (longitude, latitude), channels R, G, B in nit. Throws InputError where it is not
-// one, or dark all over, or below 0 anywhere.
+// Reads an EXR whose columns are longitudes and whose rows are latitudes, in equal steps; channels R, G, B in
+// nit. Throws InputError where the file is not such an EXR, where all values are 0, or where a value is
+// negative.
 SkyMap loadSky(const std::filesystem::path& file);
 
 }  // namespace nephroid

@@ -1,5 +1,6 @@
-// Typed, checked access to a table of a scene file: every key that is asked for becomes known, every value is
-// held against its range, and whatever is left over at the end is an error that names the nearest known key.
+// Reads a table of a scene file with checks. Every value is checked against its range. Every key that is
+// asked for counts as known; at the end, a key that was not asked for is an error, whose message has the
+// nearest known key.
 #pragma once
 
 #include <toml++/toml.h>
@@ -11,7 +12,7 @@
 
 namespace nephroid {
 
-// Closed on both sides.
+// Both ends are included.
 struct Range {
   double lowest = -1e9;
   double highest = 1e9;
@@ -27,7 +28,7 @@ toml::table parseToml(const std::string& text, const std::string& name);
 
 class TomlTable {
  public:
-  // `file` and `name` ("object \"ball\"", "camera") begin every error.
+  // Error messages begin with `file` and `name` ("object \"ball\"", "camera").
   TomlTable(const toml::table& table, std::string file, std::string name);
 
   bool has(const std::string& key);
@@ -44,22 +45,23 @@ class TomlTable {
   std::vector<TomlTable> tables(const std::string& key);
   std::optional<TomlTable> table(const std::string& key);
 
-  // A number, or what a list of [time, value] comes to at `time` (s): linear between the times, which ascend,
-  // and constant before the first and after the last.
+  // Reads a number, or a list of [time, value] pairs with ascending times. Of a list it returns the value at
+  // `time` (s): linear between the pairs, and constant before the first and after the last.
   std::optional<double> numberAt(const std::string& key, Range range, double time);
 
-  // As above, where the key must be there.
+  // As above, but a missing key is an error.
   std::string requiredText(const std::string& key);
   vec3 requiredVector3(const std::string& key, Range range = kAnyNumber);
   vec3 requiredNumberOrRgb(const std::string& key, Range range);
 
-  // One of `names`; the position in it. Where the key is missing, the first.
+  // Reads one of `names` and returns its index; 0 where the key is missing.
   std::size_t choice(const std::string& key, const std::vector<std::string>& names);
 
-  // Ends the reading: a key nobody asked for is an error.
+  // Ends the reading. Throws InputError where a key was not asked for.
   void finish() const;
 
-  // "FILE:LINE: [[object]] "ball": " of the key, or of the table for a key that is not there.
+  // The beginning of an error message: "FILE:LINE: [[object]] "ball": ", with the line of the key, or of the
+  // table where the key is missing.
   std::string at(const std::string& key) const;
   [[noreturn]] void fail(const std::string& key, const std::string& what) const;
 

@@ -1,5 +1,5 @@
-// The text of a TOML file in which single values are changed and all else stays as it was written, comments
-// and layout included.
+// Changes single values in the text of a TOML file. Everything else stays as it was written, with comments
+// and layout.
 #pragma once
 
 #include <toml++/toml.h>
@@ -12,37 +12,38 @@
 
 namespace nephroid {
 
-// Keys and values, as TOML has them.
+// Keys and values, in TOML's syntax.
 using TomlEntries = std::vector<std::pair<std::string, std::string>>;
 
 class TomlText {
  public:
-  // Throws InputError, with `name`, where it is not TOML.
+  // Throws InputError, with `name`, where the text is not TOML.
   TomlText(std::string text, const std::string& name);
 
   const toml::table& root() const { return root_; }
   // The tables of [[key]], in their order.
   std::vector<const toml::table*> tables(std::string_view key) const;
-  // The table [key], none where there is none.
+  // The table [key]; null where there is none.
   const toml::table* table(std::string_view key) const;
 
-  // In place of the value that `table` (of root) has, or else as its first. `value` is as TOML has it.
+  // Replaces the value of `key` in `table` (a table of root), or adds it as the first one. `value` is in
+  // TOML's syntax.
   void set(const toml::table& table, const std::string& key, const std::string& value);
-  // In [section], which is added at the end where there is none.
+  // The same in [section], which is added at the end where it is missing.
   void set(const std::string& section, const std::string& key, const std::string& value);
-  // Another key and value in place of `key`, which is there.
+  // Replaces an existing key and its value by another key and value.
   void replace(const toml::table& table, const std::string& key, const std::string& newKey,
                const std::string& value);
 
-  // A table before those of the list `key`, which has some: written as the first of them is.
+  // Adds a table before `table`, the first one of the list `key`, in the same style.
   void prepend(const toml::table& table, const std::string& key, const TomlEntries& entries);
 
-  // With all that was set.
+  // The text with all changes.
   std::string text() const;
 
  private:
   struct Change {
-    std::size_t begin = 0, end = 0;  // what of the text is replaced
+    std::size_t begin = 0, end = 0;  // the part of the text that is replaced
     std::string by;
   };
   std::size_t offsetOf(toml::source_position position) const;
@@ -54,14 +55,14 @@ class TomlText {
   toml::table root_;
   std::vector<std::size_t> lineStarts_;
   std::vector<Change> changes_;
-  std::vector<std::pair<std::string, std::string>> added_;  // sections that were not there, and their text
+  std::vector<std::pair<std::string, std::string>> added_;  // new sections and their text
 };
 
-// As TOML has them. Numbers in as few digits as give the same float again.
+// Values in TOML's syntax. Numbers have the fewest digits from which the same float is read.
 std::string tomlString(const std::string& text);
 std::string tomlNumber(float value);
 std::string tomlVector(vec3 value);
-std::string tomlColor(vec3 value);  // one number where the channels are alike
+std::string tomlColor(vec3 value);  // one number where the channels are equal
 std::string tomlInlineTable(const TomlEntries& entries);
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// OpenVDB files, where the program was built with the library.
+// Reads OpenVDB files, if the program was built with that library.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,10 @@
 
 namespace nephroid {
 
-// The grid of floats called `name`, the first of them where that is empty, as far as it is active: in the
-// file's own space, the densest 1. Throws InputError, naming the file, where there is no such grid, where its
-// axes are not those of the world, and where this program reads no such files.
+// Reads the active part of the grid of floats called `name`; without a name, of the first such grid.
+// Positions are those of the file (m), and densities are divided by the largest one. Throws InputError with
+// the file's name where there is no such grid, where its axes are turned, or where the program was built
+// without OpenVDB.
 DensityGrid loadVdb(const std::filesystem::path& file, const std::string& name);
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// How much room a mesh takes.
+// Boxes and spheres around meshes.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@ struct Sphere {
   float radius = 0;
 };
 
-// Of all vertices, in the mesh's own space.
+// The box around all vertices, in the mesh's own space.
 Box boundingBox(const Mesh& mesh);
 
-// About the middle of the bounding box.
+// The sphere around all vertices whose center is the middle of the bounding box.
 Sphere boundingSphere(const Mesh& mesh);
 
-// The corners of a box where it stands in the world, in the order of Box::corner; and the box along the
-// world's axes around them.
+// The corners of a placed box in world space, in the order of Box::corner, and the box around them along the
+// world's axes.
 std::array<vec3, 8> placedCorners(const Box& box, const Placement& placement);
 Box placedBox(const Box& box, const Placement& placement);
 

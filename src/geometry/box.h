@@ -1,4 +1,4 @@
-// Boxes along the axes, and straight ways through them.
+// Boxes along the axes, and the part of a line within them.
 #ifndef NEPHROID_GEOMETRY_BOX_H
 #define NEPHROID_GEOMETRY_BOX_H
 
@@ -6,8 +6,9 @@
 
 SHARED_BEGIN
 
-// From where to where (m) a way of `length` from `from` along unit `direction` runs between the corners `low`
-// and `high`. Misses where y <= x.
+// The part of a line that is in the box with the corners `low` and `high`: its begin x and end y, in m from
+// `from`. The line has a `length` (m) and goes from `from` along `direction` (unit). It misses the box where
+// y <= x.
 SHARED_FUNCTION vec2 wayThroughBox(vec3 low, vec3 high, vec3 from, vec3 direction, float length) {
   const float kAlongAFace = 1e-12f;
   vec2 part = vec2(0.0f, length);
@@ -28,7 +29,7 @@ SHARED_END
 
 namespace nephroid {
 
-// Grows around what it is to hold; empty before that.
+// A box that grows with each point that is included. It is empty at first.
 struct Box {
   vec3 low{std::numeric_limits<float>::infinity()};  // m
   vec3 high{-std::numeric_limits<float>::infinity()};
@@ -53,7 +54,7 @@ struct Box {
   bool holds(vec3 point) const {
     return glm::all(glm::greaterThanEqual(point, low)) && glm::all(glm::lessThanEqual(point, high));
   }
-  // With room on all sides.
+  // Whether `other` is inside without touching a side.
   bool holdsInside(const Box& other) const {
     return glm::all(glm::greaterThan(other.low, low)) && glm::all(glm::lessThan(other.high, high));
   }

@@ -1,4 +1,4 @@
-// A smooth surface between the corners of its triangles.
+// A smooth curved surface through the corners of flat triangles.
 #ifndef NEPHROID_GEOMETRY_CURVED_TRIANGLE_H
 #define NEPHROID_GEOMETRY_CURVED_TRIANGLE_H
 
@@ -6,17 +6,18 @@
 
 SHARED_BEGIN
 
-// How far above the flat triangle's point `p`, with barycentric `weights`, the surface lies that passes the
-// corners with their normals: half the mean of the projections on the corners' tangent planes (Boubekeur and
-// Alexa 2008, with the weight that is exact to second order on a surface of constant curvature).
+// The offset (m) from the point `p` of the flat triangle, with barycentric `weights`, to the curved surface
+// that has the given normals at the corners. It is half the mean of the projections on the corners' tangent
+// planes (Boubekeur and Alexa 2008, with the weight that is exact to second order on a surface of constant
+// curvature).
 SHARED_FUNCTION vec3 curvedOffset(vec3 p, vec3 weights, mat3 corners, mat3 normals) {
   vec3 offset = vec3(0.0f);
   for (int i = 0; i < 3; ++i) offset -= (0.5f * weights[i] * dot(p - corners[i], normals[i])) * normals[i];
   return offset;
 }
 
-// Barycentric weights of the point of a triangle's plane next to `p`; some negative where that is outside the
-// triangle.
+// Barycentric weights of the point of the triangle's plane that is nearest to `p`. Some are negative where
+// that point is outside the triangle.
 SHARED_FUNCTION vec3 barycentricOf(vec3 p, mat3 corners) {
   vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
   float scale = 1.0f / dot(normal, normal);
@@ -25,8 +26,8 @@ SHARED_FUNCTION vec3 barycentricOf(vec3 p, mat3 corners) {
   return vec3(1.0f - b - c, b, c);
 }
 
-// The step along a ray's `direction` that changes its height over a plane by that of `rise`. None for a ray
-// that runs so nearly along the plane that it would be led far astray.
+// The step along a ray's `direction` that changes its height over a plane as much as the vector `rise` does.
+// Zero for a ray that is almost parallel to the plane, where the step would be much too long.
 SHARED_FUNCTION vec3 alongRayToPlane(vec3 direction, vec3 rise, vec3 planeNormal) {
   float approach = dot(direction, planeNormal);
   if (abs(approach) < 0.05f) return vec3(0.0f);

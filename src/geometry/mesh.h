@@ -8,7 +8,7 @@
 
 namespace nephroid {
 
-// Triangles in the object's own space, counter-clockwise from outside. All arrays but `triangles` are per
+// Triangles in the object's own space, counterclockwise from outside. All arrays but `triangles` are per
 // vertex.
 struct Mesh {
   std::string name;
@@ -19,13 +19,13 @@ struct Mesh {
   bool isClosed = false;          // every edge has two faces after joining equal positions
   uint32_t droppedTriangles = 0;  // triangles without an area, left out when the mesh was made
   bool isFinished = false;        // finishMesh has made it ready, as all meshes of a scene have to be
-  // The surface bends between vertices as their normals say (shapes); otherwise its triangles are flat.
+  // The surface is curved between vertices, as their normals tell (shapes); otherwise its triangles are flat.
   bool isCurved = false;
-  // The part of the surface that is of flat facets: all of a box's or a cut gem's, the ends of a cylinder's.
-  // None of water, which goes on smoothly however flat it is.
+  // 0..1, the part of the surface's area that consists of flat facets: 1 for a box or a cut gem, the two ends
+  // for a cylinder. 0 for water, which is smooth even where it is flat.
   float facetedPart = 0;
   bool isFaceted() const { return facetedPart > 0.99f; }
-  bool hasEdges() const { return facetedPart >= 0.1f; }  // at which light parts
+  bool hasEdges() const { return facetedPart >= 0.1f; }  // edges at which light is divided
 };
 
 }  // namespace nephroid

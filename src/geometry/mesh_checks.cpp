@@ -210,7 +210,7 @@ void finishMesh(Mesh& mesh, const std::string& source) {
   if (!hasUsableNormals(mesh)) mesh.normals.clear();
   for (vec3& n : mesh.normals) n = glm::normalize(n);
   const std::size_t given = mesh.triangles.size();
-  // A flat triangle between three different vertices still holds its neighbours together, so the mesh is
+  // A flat triangle between three different vertices still holds its neighbors together, so the mesh is
   // judged before it goes.
   mesh.isClosed = meshTopology(mesh).isClosed();
   std::erase_if(mesh.triangles, [&](uvec3 t) { return hasNoArea(mesh, t); });

@@ -1,5 +1,5 @@
-// What a mesh is: closed or open, manifold or not, facing outward or inward; and the clean-up every mesh goes
-// through once, whichever file or shape it comes from.
+// Checks and cleans meshes: closed or open, manifold or not, facing outward or inward. Every mesh is cleaned
+// once, after it was read from a file or made from a shape.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace nephroid {
 
-// m from the origin, of anything; squares and areas beyond it leave single precision.
+// m from the origin, for any coordinate. Beyond it, squares and areas are too large for single precision.
 inline constexpr float kLargestCoordinate = 1e9f;
 
 struct MeshTopology {
@@ -21,21 +21,20 @@ struct MeshTopology {
   bool isClosed() const { return boundaryEdges == 0 && nonManifoldEdges == 0; }
 };
 
-// Triangles must be within range. Triangles that touch a joined vertex twice do not count.
+// The indices of triangles must be in range. Triangles that use a joined vertex twice do not count.
 MeshTopology meshTopology(const Mesh& mesh);
 
 // For every vertex, the first vertex at exactly the same position.
 std::vector<uint32_t> joinEqualPositions(const std::vector<vec3>& positions);
 
-// Makes a mesh ready for use, in place: checks that indices are in range and positions finite, merges equal
-// vertices, leaves out vertices that are not used and triangles without an area (counted in
-// droppedTriangles), sets isClosed and facetedPart, and makes the normals unit, or averages them by area from
-// the faces at equal positions where `normals` does not hold a usable one for every vertex. Throws InputError
-// beginning with `source`.
+// Makes a mesh ready for use. Checks that indices are in range and positions are finite. Merges equal
+// vertices. Removes vertices that are not used and triangles without an area (counted in droppedTriangles).
+// Sets isClosed and facetedPart. Normalizes the normals; where they are not usable, averages new ones by area
+// from the faces at equal positions. Throws InputError; the message begins with `source`.
 void finishMesh(Mesh& mesh, const std::string& source);
 
-// Throws InputError beginning with `source` where a mesh is not as finishMesh leaves it: indices in range,
-// lists as long as each other, positions finite, normals unit.
+// Throws InputError, beginning with `source`, where a mesh is not in the state that finishMesh produces:
+// indices in range, lists of equal length, positions finite, normals unit.
 void checkMesh(const Mesh& mesh, const std::string& source);
 
 }  // namespace nephroid

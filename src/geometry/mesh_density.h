@@ -1,3 +1,4 @@
+// Makes meshes finer or coarser.
 #pragma once
 
 #include <string>
@@ -6,12 +7,12 @@
 
 namespace nephroid {
 
-// The mesh with so many vertices. Fewer than it has: edges are collapsed at one of their ends, those first
-// that move the surface least (Garland and Heckbert 1997), as long as that leaves what is closed closed;
-// vertices at one position are joined and normals are averaged anew; where its topology allows no fewer, it
-// has more. More than it has: its longest edges are halved, which leaves the surface as it is. Throws
-// InputError, beginning with `where`, if there are to be fewer and an edge has more than two faces, or faces
-// run against each other.
+// Returns the mesh with `vertices` vertices. Where the mesh has more, edges are collapsed to one of their
+// ends, beginning with those that move the surface least (Garland and Heckbert 1997). A closed mesh stays
+// closed; vertices at the same position are joined, and normals are averaged anew. The result has more
+// vertices than asked where the topology allows no fewer. Where the mesh has fewer, its longest edges are
+// halved, which leaves the surface as it is. Throws InputError, beginning with `where`, where edges have to
+// be collapsed but an edge has more than two faces or neighboring faces have opposite winding.
 Mesh withVertices(const Mesh& mesh, uint32_t vertices, const std::string& where);
 
 }  // namespace nephroid

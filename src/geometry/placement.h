@@ -1,14 +1,14 @@
-// Where a mesh stands.
+// The position, rotation and scale of an object.
 #pragma once
 
 #include "core/shared_language.h"
 
 namespace nephroid {
 
-// A rigid motion and a uniform scale; anything else is baked into the mesh when it is loaded, so that what is
-// computed for a mesh (a light transport table) holds wherever it stands.
+// A rigid motion and a uniform scale. Other transformations are applied to the mesh when it is loaded. So
+// what is computed for a mesh (a light transport table) is valid wherever the object stands.
 struct Placement {
-  vec3 translation{0};
+  vec3 translation{0};  // m
   quat rotation{1, 0, 0, 0};
   float scale = 1;
   vec3 point(vec3 p) const { return rotation * (scale * p) + translation; }

@@ -1,4 +1,4 @@
-// What the shapes are put together from.
+// The parts from which the shapes are built.
 #pragma once
 
 #include <cmath>
@@ -22,9 +22,9 @@ inline uint32_t addVertex(Mesh& mesh, const ShapePoint& point) {
   return static_cast<uint32_t>(mesh.positions.size() - 1);
 }
 
-// A patch of nu x nv cells. point(i, j) gives the corner i of nu and j of nv; the outside is where d/di x
-// d/dj looks. Edges that meet others must come out with exactly equal positions; equal vertices are merged
-// when the mesh is finished.
+// Adds a patch of nu x nv cells. point(i, j) returns the corner i of 0..nu and j of 0..nv; the outside is the
+// side of d/di x d/dj. Where the edges of patches meet, their positions must be exactly equal; equal vertices
+// are merged when the mesh is finished.
 template <class Point>
 void addGrid(Mesh& mesh, uint32_t nu, uint32_t nv, const Point& point) {
   const auto first = static_cast<uint32_t>(mesh.positions.size());
@@ -47,24 +47,24 @@ void addGrid(Mesh& mesh, uint32_t nu, uint32_t nv, const Point& point) {
   }
 }
 
-// Exactly `from` at i = 0 and `to` at i = n.
+// Linear from exactly `from` at i = 0 to exactly `to` at i = n.
 inline double between(double from, double to, uint32_t i, uint32_t n) {
   const double t = static_cast<double>(i) / n;
   return from * (1 - t) + to * t;
 }
 
-// Counter-clockwise round +y, from +x; exactly closed.
+// The unit vector i of n around +y, counterclockwise from +x. i = n gives exactly the same as i = 0.
 inline dvec3 aroundY(uint32_t i, uint32_t n) {
   const double angle = kTurn * (i % n) / n;
   return {std::cos(angle), 0, -std::sin(angle)};
 }
 
-// How many parts of about `edge` a length has.
+// The number of parts of about the length `edge` in `length`.
 inline uint32_t parts(double length, double edge, uint32_t atLeast = 1) {
   return std::max(atLeast, static_cast<uint32_t>(std::lround(length / edge)));
 }
 
-// The n for which count(n) vertices, rising with n, come closest to `vertices`.
+// The n for which count(n), which rises with n, is closest to `vertices`.
 template <class Count>
 uint32_t partsForVertices(uint32_t vertices, uint32_t atLeast, const Count& count) {
   uint32_t low = atLeast, high = atLeast + 1;

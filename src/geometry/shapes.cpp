@@ -73,14 +73,14 @@ void addTriangleGrid(Mesh& mesh, uint32_t n, const Point& point) {
 // A flat disk at height y of 6 m edges round it, cut like a honeycomb; looks up or down.
 void addDisk(Mesh& mesh, double radius, double y, uint32_t m, bool up) {
   const dvec3 normal{0, up ? 1 : -1, 0};
-  const auto centre = addVertex(mesh, {{0, y, 0}, normal});
-  uint32_t inner = centre;
+  const auto center = addVertex(mesh, {{0, y, 0}, normal});
+  uint32_t inner = center;
   for (uint32_t k = 1; k <= m; ++k) {
     const auto outer = static_cast<uint32_t>(mesh.positions.size());
     for (uint32_t i = 0; i < 6 * k; ++i) {
       addVertex(mesh, {radius * between(0, 1, k, m) * aroundY(i, 6 * k) + dvec3(0, y, 0), normal});
     }
-    const auto innerAt = [&](uint32_t i) { return k == 1 ? centre : inner + i % (6 * (k - 1)); };
+    const auto innerAt = [&](uint32_t i) { return k == 1 ? center : inner + i % (6 * (k - 1)); };
     const auto outerAt = [&](uint32_t i) { return outer + i % (6 * k); };
     const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
       mesh.triangles.emplace_back(a, up ? b : c, up ? c : b);

@@ -28,7 +28,7 @@ SHARED_FUNCTION TangentPlane tangentPlane(vec3 point, vec3 normal) {
 
 struct PlaneMeeting {
   float distance;  // m along the ray, negative behind its start; not finite for a ray along the plane
-  float approach;  // per metre along the ray, in lengths of the normal; negative from behind the plane
+  float approach;  // per meter along the ray, in lengths of the normal; negative from behind the plane
 };
 
 SHARED_FUNCTION PlaneMeeting meetTangentPlane(vec3 start, vec3 direction, TangentPlane plane) {

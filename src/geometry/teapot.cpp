@@ -168,7 +168,7 @@ struct Bernstein {
   std::array<double, 4> slope;
 };
 
-// Exactly one control point at either end, so that neighbouring patches agree.
+// Exactly one control point at either end, so that neighboring patches agree.
 Bernstein bernstein(uint32_t i, uint32_t n) {
   const double t = static_cast<double>(i) / n, s = 1 - t;
   return {{s * s * s, 3 * t * s * s, 3 * t * t * s, t * t * t},
@@ -243,13 +243,13 @@ void addTube(Mesh& mesh, const Tube& tube, uint32_t n) {
     std::vector<dvec3> rim;  // once round
     for (uint32_t j = 0; j <= n; ++j) rim.push_back(evaluate(patch, isStart ? 0 : n, j, n).position);
     for (uint32_t j = n - 1; j > 0; --j) rim.push_back(mirrored(rim[j]));
-    dvec3 centre(0), normal(0);
+    dvec3 center(0), normal(0);
     for (std::size_t j = 0; j < rim.size(); ++j) {
-      centre += rim[j] / static_cast<double>(rim.size());
+      center += rim[j] / static_cast<double>(rim.size());
       normal += glm::cross(rim[j], rim[(j + 1) % rim.size()]);
     }
     normal = (isStart ? -1.0 : 1.0) * glm::normalize(normal);
-    const uint32_t middle = addVertex(mesh, upright({centre, normal}));
+    const uint32_t middle = addVertex(mesh, upright({center, normal}));
     for (const dvec3 p : rim) addVertex(mesh, upright({p, normal}));
     const auto count = static_cast<uint32_t>(rim.size());
     for (uint32_t j = 0; j < count; ++j) {

@@ -1,6 +1,6 @@
-// What is recorded between the beginning and the end of one Device::submitAndWait. Work inside a pass runs in
-// any order; `pass` puts a full barrier before it, and `barrier` one within it. Mistakes of the caller (wrong
-// constants or images) throw std::logic_error in every build.
+// Records the commands of one Device::submitAndWait. Commands within a pass run in any order. `pass` sets a
+// full barrier before the pass, and `barrier` sets one within it. Mistakes of the caller (wrong constants or
+// images) throw std::logic_error in every build.
 #pragma once
 
 #include <functional>
@@ -18,16 +18,16 @@
 
 namespace nephroid::gpu {
 
-// What a shader calls an image. It is known when C++ is compiled, so that names are compared as numbers while
-// a frame is recorded.
+// The name of an image in a shader. Its hash is computed when C++ is compiled, so that only numbers are
+// compared while a frame is recorded.
 struct ImageName {
   consteval ImageName(const char* text_) : text(text_), hash(hashOfName(text_)) {}
   const char* text;
   uint64_t hash;
 };
 
-// An image, or the images of an array (`texture2D name[3]`), for the binding of that name: alone for
-// `image2D` and `texture2D`, with a sampler for `sampler2D`.
+// The image, or the images of an array (`texture2D name[3]`), for the binding of that name. `sampler2D` needs
+// a sampler too; `image2D` and `texture2D` need none.
 struct Binding {
   Binding(ImageName name_, const Image& image) : name(name_), images{&image} {}
   Binding(ImageName name_, const Image& image, const Sampler& sampler_)
@@ -37,7 +37,7 @@ struct Binding {
   std::vector<const Image*> images;
   const Sampler* sampler = nullptr;
 };
-// In any order; each of a program's, once.
+// All bindings of a program, each once, in any order.
 using Bindings = std::initializer_list<Binding>;
 
 struct NoConstants {};
@@ -45,7 +45,7 @@ struct NoConstants {};
 struct ColorAttachment {
   const Image* image = nullptr;
   uint32_t layer = 0;
-  std::optional<vec4> clear;  // without it what is there is kept
+  std::optional<vec4> clear;  // without it the contents are kept
 };
 
 struct DepthAttachment {
@@ -63,7 +63,7 @@ struct Region {
 struct RenderTargets {
   std::vector<ColorAttachment> colors;
   std::optional<DepthAttachment> depth;
-  std::optional<Region> region{};  // of the targets that is cleared and drawn to; all of them without it
+  std::optional<Region> region{};  // the part of the targets that is cleared and drawn to; without it, all
 };
 
 // Indices (uint32) `first` .. `first + count` of a buffer, each with `vertexOffset` added to it.
@@ -79,20 +79,20 @@ class CommandList {
 
   CommandList(Device& device, VkCommandBuffer commandBuffer, VkQueryPool timestamps);
 
-  // A named, timed piece of work that sees the results of all before it. Passes may nest.
+  // A named and timed pass. It sees the results of all commands before it. Passes may be nested.
   void pass(const std::string& name, const std::function<void()>& record);
 
-  // All device work recorded after this sees all recorded before it.
+  // All commands after this see the results of all commands before it.
   void barrier();
 
-  // At least `threads` threads, in whole groups: the shader returns early in those past the end.
+  // Starts at least `threads` threads, in whole groups. Threads beyond `threads` must return early in the
+  // shader.
   template <class Constants>
   void dispatch(const Program& program, uvec3 threads, const Constants& constants, Bindings bindings = {}) {
     dispatchBytes(program, threads, bytesOf(constants), bindings);
   }
 
-  // Draws go between the beginning and the end of this; the viewport is all of the targets, whatever the
-  // region.
+  // `draws` records the draws to these targets. The viewport is the whole targets, even with a region.
   void render(const RenderTargets& targets, const std::function<void()>& draws);
 
   template <class Constants>
@@ -106,7 +106,7 @@ class CommandList {
     drawIndexedBytes(program, indices, range, instanceCount, bytesOf(constants), bindings);
   }
 
-  // What the VkDrawIndirectCommand at the beginning of `command` tells.
+  // Draws as the VkDrawIndirectCommand at the beginning of `command` tells.
   template <class Constants>
   void drawIndirect(const Program& program, const Buffer& command, const Constants& constants,
                     Bindings bindings = {}) {

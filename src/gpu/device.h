@@ -1,5 +1,5 @@
-// A Vulkan 1.3 device with one queue, on which work is recorded, submitted and waited for: the same commands
-// give the same bytes, and nothing a caller owns is in use once submitAndWait has returned.
+// A Vulkan 1.3 device with one queue. Work is recorded, submitted and waited for. The same commands give the
+// same bytes. After submitAndWait the device uses nothing that the caller owns.
 #pragma once
 
 #include <functional>
@@ -17,10 +17,11 @@ namespace nephroid::gpu {
 class CommandList;
 
 struct DeviceOptions {
-  std::string device;       // index or part of the name; empty: discrete before integrated, virtual, software
-  bool validation = false;  // Khronos validation layer with synchronisation validation; NEPHROID_VALIDATION=1
+  std::string
+      device;  // index or part of the name; empty: the first of discrete, integrated, virtual, software
+  bool validation = false;  // Khronos validation layer with synchronization validation; NEPHROID_VALIDATION=1
                             // turns it on too
-  // What a window system needs of the instance; not empty: the device can show pictures (Swapchain).
+  // Instance extensions of the window system. Where they are given, the device can show images (Swapchain).
   std::vector<std::string> surfaceExtensions{};
   uint32_t subgroupSize = 0;  // one of DeviceInfo::subgroupSizes; 0: the device's own choice
 };
@@ -31,9 +32,9 @@ struct DeviceInfo {
   std::string type;        // "discrete", "integrated", "virtual", "software" or "other"
   std::string driver;      // name and version
   std::string apiVersion;  // "1.3.230"
-  // Threads that a subgroup of a compute shader can be asked to have, of 4 to 64, ascending.
+  // The subgroup sizes (threads, 4..64) that a compute shader can ask for, ascending.
   std::vector<uint32_t> subgroupSizes;
-  std::vector<std::string> missing;  // what it would need to be usable; empty when it is usable
+  std::vector<std::string> missing;  // the features that it lacks; empty: it is usable
 };
 
 // All devices of this machine. Throws RuntimeFailure when there is no loader or no driver.
@@ -41,14 +42,14 @@ std::vector<DeviceInfo> listDevices();
 
 class Device {
  public:
-  // Throws InputError when no device is meant by `options.device`, RuntimeFailure when none is usable.
+  // Throws InputError where `options.device` fits no device, RuntimeFailure where no device is usable.
   explicit Device(const DeviceOptions& options = {});
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  // Records, submits and waits; returns the passes in the order in which they began (none without
-  // timestamps).
+  // Records, submits and waits. Returns the times of the passes, in the order in which they began; empty
+  // where the device has no timestamps.
   std::vector<PassTime> submitAndWait(const std::function<void(CommandList&)>& record);
 
   VkInstance instance() const { return instance_.handle(); }
@@ -58,7 +59,7 @@ class Device {
   VkPhysicalDevice physicalDevice() const { return physicalDevice_; }
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
-  // Threads of a compute group that is one subgroup.
+  // The number of threads in a compute group that is one subgroup.
   uint32_t subgroupSize() const { return subgroupSize_; }
   MemoryPool& memory() { return *memory_; }
   uint64_t memoryBytes() const { return memory_->usedBytes(); }  // in buffers and images now
@@ -66,7 +67,7 @@ class Device {
   const std::vector<std::string>& validationMessages() const { return instance_.validationMessages(); }
   void clearValidationMessages() { instance_.clearValidationMessages(); }
 
-  // What debuggers, captures and validation messages call the object.
+  // The object's name in debuggers, captures and validation messages.
   void setName(VkObjectType type, uint64_t object, const std::string& name) const;
   bool hasDebugNames() const { return instance_.hasDebugNames(); }
 

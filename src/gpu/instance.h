@@ -1,4 +1,4 @@
-// The connection to the Vulkan loader, and what its validation layer had to say.
+// The Vulkan instance, and the messages of the validation layer.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace nephroid::gpu {
 
 class Instance {
  public:
-  // `surfaceExtensions`: what a window system needs. Throws RuntimeFailure, saying what to install, when
-  // there is no loader, or no validation layer where one is wanted.
+  // `surfaceExtensions`: the extensions of the window system. Throws RuntimeFailure where there is no Vulkan
+  // loader, or no validation layer although `validation` is set; the message tells what to install.
   explicit Instance(bool validation, const std::vector<std::string>& surfaceExtensions = {});
   ~Instance();
   Instance(const Instance&) = delete;

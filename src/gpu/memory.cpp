@@ -15,7 +15,7 @@ struct MemoryBlock {
   uint32_t type = 0;
   MemoryKind kind = MemoryKind::device;
   std::byte* mapped = nullptr;
-  std::map<VkDeviceSize, VkDeviceSize> free;  // offset to size, neighbours always joined
+  std::map<VkDeviceSize, VkDeviceSize> free;  // offset to size, neighbors always joined
 
   std::optional<VkDeviceSize> take(VkDeviceSize bytes, VkDeviceSize alignment) {
     for (const auto& [offset, available] : free) {

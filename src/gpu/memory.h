@@ -1,4 +1,5 @@
-// Device memory in large blocks, handed out first fit: drivers allow few allocations, and each is slow.
+// Allocates device memory in large blocks and divides them (first fit), because drivers allow few
+// allocations, and each is slow.
 #pragma once
 
 #include <cstddef>
@@ -34,11 +35,11 @@ class MemoryPool {
   MemoryPool(const MemoryPool&) = delete;
   MemoryPool& operator=(const MemoryPool&) = delete;
 
-  // Throws RuntimeFailure with the bytes asked for and `name`, what they are for.
+  // Throws RuntimeFailure with the number of bytes and with `name`, the purpose of the memory.
   Allocation allocate(const VkMemoryRequirements& requirements, MemoryKind kind, const std::string& name);
   void release(const Allocation& allocation);
   uint64_t usedBytes() const { return usedBytes_; }
-  uint64_t allocationCount() const { return allocationCount_; }  // that were not given back
+  uint64_t allocationCount() const { return allocationCount_; }  // allocations that are in use
 
  private:
   uint32_t memoryType(uint32_t allowedTypes, MemoryKind kind) const;

@@ -1,6 +1,7 @@
-// Compute and raster pipelines that know by reflection how they are fed: images by push descriptors, under
-// the names that shaders give them (a name is one image in all stages of a program; binding numbers are
-// chosen here); all else by push constants (at most 128 bytes), which hold the addresses of buffers.
+// Compute and raster pipelines. Their inputs are found by reflection of the shaders. Images are bound by the
+// names that they have in the shaders (push descriptors); the same name is the same image in all stages of a
+// program, and binding numbers are chosen here. All other data is in push constants (at most 128 bytes),
+// which hold the addresses of buffers.
 #pragma once
 
 #include <span>
@@ -14,14 +15,14 @@
 
 namespace nephroid::gpu {
 
-// A specialization constant, by the name it has in one or more of a program's shaders. Those that are not
-// given keep the shader's value.
+// The value of a specialization constant, by its name in the program's shaders. Constants that are not given
+// keep the shader's value.
 struct SpecializationConstant {
   std::string_view name;
-  uint32_t value = 0;  // its 32 bits
+  uint32_t value = 0;  // the 32 bits of the value, of any type
 };
 
-// over: by its alpha over what is there.
+// none: replaces what is there. add: adds to it. over: covers it by the source's alpha.
 enum class Blend { none, add, over };
 
 struct ColorTarget {
@@ -57,7 +58,7 @@ class Program {
   VkPipelineLayout layout() const { return layout_; }
   VkPipelineBindPoint bindPoint() const { return bindPoint_; }
   VkShaderStageFlags stages() const { return stages_; }
-  // Of all stages; a binding's place in the list is its number.
+  // The inputs of all stages. A binding's index in the list is its binding number.
   const Reflection& reflection() const { return reflection_; }
   const std::string& name() const { return name_; }
   explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
@@ -82,17 +83,17 @@ class Program {
   std::string name_;
 };
 
-// Programs. Both throw std::logic_error for a constant that no shader has, and for an image that two shaders
+// Both functions throw std::logic_error for a constant that no shader has, and for an image that two shaders
 // declare differently.
 //
-// A shader with `layout(local_size_x_id = N) in` has groups of one full subgroup of Device::subgroupSize
-// threads: N is set here. Shaders whose subgroups go their own way need that: SPIR-V promises that threads
-// come together again after a branch only for groups that went in as a whole, and some drivers let
-// subgroupBarrier wait for the whole group.
+// In a shader with `layout(local_size_x_id = N) in`, each group is one full subgroup of Device::subgroupSize
+// threads: the constant N is set here. Shaders in which subgroups take different branches need this. SPIR-V
+// guarantees that threads meet again after a branch only where the whole group entered it, and in some
+// drivers subgroupBarrier waits for the whole group.
 Program createComputeProgram(Device& device, const std::string& name, std::span<const uint32_t> spirv,
                              const std::vector<SpecializationConstant>& constants = {});
 
-// An empty `fragment` draws depth alone.
+// With an empty `fragment` only depth is drawn.
 Program createRasterProgram(Device& device, const std::string& name, std::span<const uint32_t> vertex,
                             std::span<const uint32_t> fragment, const RasterState& state,
                             const std::vector<SpecializationConstant>& constants = {});

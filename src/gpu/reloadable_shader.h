@@ -9,16 +9,16 @@
 
 namespace nephroid::gpu {
 
-// Known to compileAgain while it lives.
+// A shader that compileAgain compiles, as long as this object exists.
 class ReloadableShader {
  public:
-  // As it was built from `source`.
+  // `spirv`: as it was built from the file `source`.
   ReloadableShader(std::filesystem::path source, std::span<const uint32_t> spirv);
   ~ReloadableShader();
   ReloadableShader(const ReloadableShader&) = delete;
   ReloadableShader& operator=(const ReloadableShader&) = delete;
 
-  // What programs are made of from now on.
+  // The SPIR-V from which new programs are made.
   operator std::span<const uint32_t>() const { return spirv_; }
   void exchange(std::vector<uint32_t>& spirv) { spirv_.swap(spirv); }
   const std::filesystem::path& source() const { return source_; }
@@ -35,14 +35,16 @@ struct ShaderChange {
 
 struct ShaderChanges {
   std::vector<ShaderChange> changes;
-  std::string error;  // what the compiler says of the first that is wrong, in one line; empty: nothing
+  std::string
+      error;  // the compiler's message for the first shader with an error, in one line; empty: no error
 };
 
-// All shaders whose sources make another SPIR-V now, none where one of them is wrong. `compiler` is a command
-// that takes "-o FILE SOURCE" after it. On any thread, while no shader is exchanged.
+// Compiles all shaders, and returns those whose SPIR-V has changed; none where one of them has an error.
+// `compiler` is a command to which "-o FILE SOURCE" is added. May run on any thread, but not during
+// `exchange`.
 ShaderChanges compileAgain(const std::string& compiler);
 
-// Puts these in use; what was in use before is in them then.
+// Exchanges the new SPIR-V with the present one. A second call undoes it.
 void exchange(ShaderChanges& changes);
 
 }  // namespace nephroid::gpu

@@ -1,5 +1,5 @@
-// Buffers, images and samplers: move-only, owned by whoever holds them, and to be gone before their Device.
-// Names are what validation messages, captures and out-of-memory errors call them.
+// Buffers, images and samplers. They can be moved but not copied, and must be destroyed before their Device.
+// Names appear in validation messages, captures and out-of-memory errors.
 #pragma once
 
 #include <cstddef>
@@ -25,14 +25,13 @@ class Buffer {
   ~Buffer();
 
   VkBuffer handle() const { return handle_; }
-  VkDeviceAddress address() const {
-    return address_;
-  }                                            // for buffer references in shaders; 16-byte aligned at least
+  // For buffer references in shaders; aligned to at least 16 bytes.
+  VkDeviceAddress address() const { return address_; }
   VkDeviceSize size() const { return size_; }  // bytes
   const std::string& name() const { return name_; }
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
-  // Mapped memory (upload and readback only). Never touched by the device outside submitAndWait.
+  // Mapped memory (upload and readback only). The device uses it only during submitAndWait.
   std::byte* mapped() const { return allocation_.mapped; }
   template <class T>
   std::span<T> as() const {
@@ -65,8 +64,8 @@ class Buffer {
 Buffer createBuffer(Device& device, const std::string& name, VkDeviceSize bytes,
                     MemoryKind kind = MemoryKind::device);
 
-// Replaces a buffer smaller than `bytes` by a larger one: half as much again, so that what grows from frame
-// to frame does not ask for memory in each. Contents are not kept.
+// Replaces a buffer that is smaller than `bytes` by one of 1.5 times that size, so that a buffer that grows a
+// little with each frame is not allocated in each. The contents are not kept.
 void ensureBuffer(Device& device, Buffer& buffer, const std::string& name, VkDeviceSize bytes,
                   MemoryKind kind = MemoryKind::device);
 
@@ -78,8 +77,8 @@ struct ImageOptions {
   uint32_t mipLevels = 1;
 };
 
-// Always in the layout GENERAL, and usable for all its format allows: sampled, stored to, rendered to,
-// copied.
+// An image. It is always in the layout GENERAL, and has all usages that its format allows: sampling, storing,
+// rendering, copying.
 class Image {
  public:
   Image() = default;
@@ -92,9 +91,8 @@ class Image {
 
   VkImage handle() const { return handle_; }
   VkImageView view() const { return view_; }  // all layers and levels
-  VkImageView storageView() const {
-    return levelViews_.empty() ? view_ : levelViews_[0];
-  }                                                                           // all layers of level 0
+  // All layers of level 0.
+  VkImageView storageView() const { return levelViews_.empty() ? view_ : levelViews_[0]; }
   VkImageView layerView(uint32_t layer) const { return layerViews_[layer]; }  // 2D, level 0: for attachments
   const ImageOptions& options() const { return options_; }
   VkFormat format() const { return options_.format; }
@@ -124,8 +122,7 @@ class Image {
   std::string name_;
 };
 
-// Throws RuntimeFailure when the device has no such format or no image that large. The contents are
-// undefined.
+// Throws RuntimeFailure where the device does not support the format or the size. The contents are undefined.
 Image createImage(Device& device, const std::string& name, const ImageOptions& options);
 
 struct SamplerOptions {

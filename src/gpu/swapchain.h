@@ -1,4 +1,4 @@
-// What a window shows: images that are made elsewhere are copied to it.
+// Shows images in a window. They are drawn elsewhere and copied to the window.
 #pragma once
 
 #include <vector>
@@ -8,20 +8,19 @@
 
 namespace nephroid::gpu {
 
-enum class Pace { screen, none };  // as often as the screen is drawn; as often as there are images
+enum class Pace { screen, none };  // screen: wait for the screen's refresh; none: show each image at once
 
 class Swapchain {
  public:
-  // `surface` was made of the device's instance; it is this one's from here on. Throws RuntimeFailure where
-  // the device cannot show anything in it. The device outlives it.
+  // `surface` belongs to the device's instance; this object takes ownership. The device must outlive this
+  // object. Throws RuntimeFailure where the device cannot show images on the surface.
   Swapchain(Device& device, VkSurfaceKHR surface, Pace pace);
   ~Swapchain();
   Swapchain(const Swapchain&) = delete;
   Swapchain& operator=(const Swapchain&) = delete;
 
-  // Copies `image` (rgba8) to the window, whose area is `windowSize` pixels, and returns when it is the
-  // window's. Nothing is shown in a window without area, and where the window has changed meanwhile; the next
-  // call goes on with it as it then is. Returns whether the image was shown.
+  // Copies `image` (rgba8) to the window of `windowSize` pixels and shows it. Returns false where it was not
+  // shown: the window has no area, or its size has just changed. The next call uses the new size.
   bool show(const Image& image, uvec2 windowSize);
 
  private:
@@ -37,7 +36,7 @@ class Swapchain {
   VkFence acquired_ = VK_NULL_HANDLE;
   VkSwapchainKHR handle_ = VK_NULL_HANDLE;
   std::vector<VkImage> images_;
-  uvec2 windowSize_{0};  // that it was made for
+  uvec2 windowSize_{0};  // for which the images were made
   uvec2 size_{0};        // of the images
   bool isOutdated_ = true;
 };

@@ -1,4 +1,5 @@
-// Whole buffers and images between host and device, each waited for: for setting up and reading results.
+// Copies whole buffers and images between host and device, and waits for each copy. Used for setup and for
+// results.
 #pragma once
 
 #include "gpu/command_list.h"
@@ -15,7 +16,7 @@ Buffer upload(Device& device, const std::string& name, const std::vector<T>& val
   return uploadBytes(device, name, std::as_bytes(std::span(values)));
 }
 
-// The texels of each mip level of layer 0, rows from the top.
+// `levels`: for each mip level the texels of layer 0, row by row from the top.
 void uploadImage(Device& device, const Image& to, const std::vector<std::vector<std::byte>>& levels);
 
 template <class T>
@@ -25,7 +26,7 @@ std::vector<T> download(Device& device, const Buffer& from) {
   return values;
 }
 
-// Level 0 of a layer, T being the texel, rows from the top.
+// The texels (of type T) of level 0 of a layer, row by row from the top.
 template <class T>
 std::vector<T> download(Device& device, const Image& from, uint32_t layer = 0) {
   std::vector<T> texels(std::size_t{from.width()} * from.height());

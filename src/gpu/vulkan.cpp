@@ -12,7 +12,7 @@ const char* describe(VkResult result) {
     case VK_ERROR_DEVICE_LOST:
       return "the device was lost; the driver reset it or it ran too long";
     case VK_ERROR_INITIALIZATION_FAILED:
-      return "the driver could not be initialised";
+      return "the driver could not be initialized";
     case VK_ERROR_INCOMPATIBLE_DRIVER:
       return "no compatible driver";
     case VK_TIMEOUT:

@@ -1,4 +1,4 @@
-// Vulkan as this folder sees it: entry points loaded at run time by volk, failures as exceptions.
+// Includes Vulkan, whose functions are loaded at run time by volk, and turns failures into exceptions.
 #pragma once
 
 #include <volk.h>
@@ -9,16 +9,16 @@
 
 namespace nephroid::gpu {
 
-// The device is gone, and with it all that is on it: another has to be made.
+// The device was lost with everything on it. A new one has to be created.
 struct DeviceLost : RuntimeFailure {
   using RuntimeFailure::RuntimeFailure;
 };
 
-// Throws RuntimeFailure (DeviceLost where it is that) naming `what` was being done unless `result` says
-// success.
+// Throws RuntimeFailure, or DeviceLost, where `result` is an error. `what`: the work that failed, for the
+// message.
 void check(VkResult result, const std::string& what);
 
-// A Vulkan struct, zero but for its type.
+// A Vulkan struct with its type set and everything else zero.
 template <class T>
 T structure(VkStructureType type) {
   T value{};

@@ -1,5 +1,5 @@
-// A scene on the device: geometry and textures are sent once, and what may differ from frame to frame by
-// `place`.
+// A scene on the device. Geometry and textures are sent once; `place` sends what may change from frame to
+// frame.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace nephroid {
 
-// How one object is drawn: with GpuScene::indices(), its vertices and its texture.
+// What is needed to draw one object: its part of GpuScene::indices(), and its texture.
 struct SceneDraw {
   uint32_t object = 0;  // index in Scene::objects
   MaterialType type = MaterialType::diffuse;
@@ -23,8 +23,8 @@ class GpuScene {
  public:
   GpuScene(gpu::Device& device, const Scene& scene);
 
-  // Takes placements, materials and the heights of water from `scene`, which has the objects and meshes this
-  // was made of. A rigid motion costs an upload of 52 bytes an object.
+  // Takes placements, materials and the shape of water from `scene`. It must have the same objects and meshes
+  // as the scene of the constructor. An object that moves costs an upload of 52 bytes.
   void place(const Scene& scene);
 
   const std::vector<SceneDraw>& draws() const { return draws_; }  // one for each object, in their order
@@ -32,7 +32,7 @@ class GpuScene {
   uint64_t vertices() const { return vertices_.address(); }    // SceneVertex[]
   uint64_t objects() const { return objects_.address(); }      // SceneObject[]
   uint64_t materials() const { return materials_.address(); }  // SceneMaterial[]
-  // Of Scene::textures, in linear half floats; white for kNone.
+  // The texture of this index in Scene::textures, in linear half floats; a white one for kNone.
   const gpu::Image& texture(uint32_t index) const {
     return textures_[std::min<std::size_t>(index, textures_.size() - 1)];
   }

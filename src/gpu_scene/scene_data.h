@@ -1,4 +1,4 @@
-// The scene as shaders see it: arrays behind buffer references, indexed as in Scene.
+// The scene for shaders: arrays behind buffer references, with the same indices as in Scene.
 #ifndef NEPHROID_GPU_SCENE_SCENE_DATA_H
 #define NEPHROID_GPU_SCENE_SCENE_DATA_H
 
@@ -37,7 +37,7 @@ SHARED_FUNCTION vec3 worldPoint(SceneObject object, vec3 p) {
               dot(object.toWorld[2], vec4(p, 1.0f)));
 }
 
-// Of a vector's own direction; its length is scaled by the object's scale.
+// Rotates a vector to world space; its length is multiplied by the object's scale.
 SHARED_FUNCTION vec3 worldVector(SceneObject object, vec3 v) {
   return vec3(dot(object.toWorld[0], vec4(v, 0.0f)), dot(object.toWorld[1], vec4(v, 0.0f)),
               dot(object.toWorld[2], vec4(v, 0.0f)));

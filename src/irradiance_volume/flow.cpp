@@ -19,8 +19,9 @@ constexpr uint32_t kWordsOfNode = 3;     // six half floats
 
 constexpr uint32_t kPairedPhotons = 8000;
 constexpr int kStepsAlongPath = 16;
-constexpr float kMostChange = 10;     // of a pair, for each radian that the light turned
-constexpr float kSmoothness = 0.05f;  // of a node's neighbours, beside the mean of what nodes know themselves
+constexpr float kMostChange = 10;  // of a pair, for each radian that the light turned
+constexpr float kSmoothness =
+    0.05f;  // weight of a node's neighbors, relative to the mean weight of the nodes' own values
 constexpr int kSmoothings = 40;
 constexpr std::size_t kCellsJudged = 20 * 20 * 20;
 
@@ -97,10 +98,10 @@ Moves solve(const FlowLattice& lattice, const Sums& sums) {
         vec3 around(0);
         float count = 0;
         for (int axis = 0; axis < 3; ++axis)
-          for (const uint32_t neighbour : {node[axis] - 1, node[axis] + 1}) {
-            if (neighbour >= lattice.side) continue;
+          for (const uint32_t neighbor : {node[axis] - 1, node[axis] + 1}) {
+            if (neighbor >= lattice.side) continue;
             uvec3 other = node;
-            other[axis] = neighbour;
+            other[axis] = neighbor;
             around += now[lattice.index(other)];
             ++count;
           }
@@ -131,7 +132,7 @@ LightFlow turnedBy(const FlowLattice& lattice, const Moves& moves, vec2 aside) {
   return flow;
 }
 
-// Light on a grid of cells, looked up between their centres.
+// Light on a grid of cells, looked up between their centers.
 class Cells {
  public:
   Cells(std::span<const PhotonPath> paths, const SampleLayout& layout)

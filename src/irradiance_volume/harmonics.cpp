@@ -51,7 +51,7 @@ std::vector<Direction> directionsOf(IrradianceVolume& base, uint32_t order) {
   return directions;
 }
 
-// Over the cube of the side `side` around a place, of what the base holds for a direction.
+// The mean of the base's light for a direction, over the cube with the side `side` around a place.
 VolumeLight meanAround(const Direction& direction, vec3 place, float side) {
   constexpr uint32_t kPoints = 8;
   VolumeLight light = noLight();
@@ -74,7 +74,7 @@ std::vector<float> sphericalHarmonics(uint32_t order, vec3 direction) {
   const double z = double(direction.z);
   const double planar = std::sqrt(std::max(0.0, 1 - z * z));
   const double azimuth = std::atan2(double(direction.y), double(direction.x));
-  // Legendre functions, normalised, by the stable recurrence in the degree (Press et al. 2007, 6.7).
+  // Legendre functions, normalized, by the stable recurrence in the degree (Press et al. 2007, 6.7).
   double diagonal = std::sqrt(1 / (4 * std::numbers::pi));
   for (uint32_t m = 0; m <= order; ++m) {
     if (m > 0) diagonal *= -planar * std::sqrt((2.0 * m + 1) / (2.0 * m));

@@ -9,7 +9,7 @@
 namespace nephroid {
 namespace {
 
-constexpr float kIcosahedronEdge = 1.1071487f;  // radians between neighbouring vertices
+constexpr float kIcosahedronEdge = 1.1071487f;  // radians between neighboring vertices
 
 // Mirrors to the positive side of every mirror plane.
 mat3 toPositiveSide(const Symmetry& symmetry, vec3 direction) {

@@ -1,4 +1,4 @@
-// The light directions that a caster's volume is made for, and how light from any other is found among them.
+// The light directions for which a caster's volume is made, and the interpolation between them.
 #pragma once
 
 #include <array>
@@ -10,36 +10,41 @@
 
 namespace nephroid {
 
-// Between light samples. nearest: the one whose direction is nearest. barycentric: the three around it by
-// their weights. rotated: so too, each turned from its direction to the light's (Wyman 2004, section 5.2,
-// steps A to G). flow: so too, and moved by what was learnt of the caster (flow.h).
+// How light between the samples is found. nearest: the sample with the nearest direction. barycentric: the
+// weighted mean of the three samples around it. rotated: as barycentric, with each sample turned to the
+// light's direction (Wyman 2004, section 5.2, steps A to G). flow: as rotated, with each sample also
+// displaced (flow.h).
 enum class LightInterpolation { nearest, barycentric, rotated, flow };
 
-// What users call them.
+// The users' names, in the same order.
 inline constexpr std::array<const char*, 4> kLightInterpolationNames{"nearest", "barycentric", "rotated",
                                                                      "flow"};
 constexpr const auto& namesOf(LightInterpolation) {
   return kLightInterpolationNames;
 }
 
-// A share of one sample.
+// One sample and its weight.
 struct SampleShare {
   uint32_t sample = 0;
   float weight = 1;
-  mat3 toSample{1};  // from the caster's own space, without the sample's frame; turns, and may mirror
-  vec2 aside{0};     // of flow: across the sample's frame, how far the light is off its direction
+  mat3 toSample{
+      1};  // from the caster's own space, before the sample's frame; a rotation, possibly with a mirror
+  vec2 aside{0};  // for flow: components of the light's direction across the sample's direction
 };
 
 class LightSamples {
  public:
-  // A ball has one direction, a body of revolution those of a quarter circle (a half one where its ends
-  // differ), all others the vertices of a LightSphere that no mirror plane has on its other side.
+  // A ball needs one direction; a body of revolution those of a quarter circle, or of a half circle where its
+  // two ends differ. Other casters need the vertices of a LightSphere that lie on one side of all mirror
+  // planes. `level`: of the LightSphere.
   LightSamples(const Symmetry& symmetry, uint32_t level);
 
-  const std::vector<vec3>& directions() const { return directions_; }  // unit, the way the light travels
-  // rad, that light is off the nearest direction at most, or nearly so.
+  const std::vector<vec3>& directions() const {
+    return directions_;
+  }  // unit, in the direction in which the light travels
+  // rad, about the largest angle between a light and the nearest direction.
   float halfStep() const { return halfStep_; }
-  // For light that travels along the unit vector `direction`, in the caster's own space.
+  // The samples for light that travels along `direction` (unit, in the caster's own space).
   std::vector<SampleShare> around(vec3 direction, LightInterpolation interpolation) const;
 
  private:
@@ -49,14 +54,14 @@ class LightSamples {
   Symmetry symmetry_;
   float halfStep_;
   std::vector<vec3> directions_;
-  std::unique_ptr<LightSphere> sphere_;  // of the third kind alone
-  std::vector<uint32_t> sampleOf_;       // of each of its vertices
+  std::unique_ptr<LightSphere> sphere_;  // only for casters without an axis of revolution
+  std::vector<uint32_t> sampleOf_;       // for each of the sphere's vertices, the index of its sample
 };
 
-// The columns span the space of a light sample: across the light, and along it.
+// The frame of a light sample: two columns across the light, and the third along it.
 mat3 sampleFrame(vec3 lightDirection);
 
-// The shortest turn from one unit vector to another.
+// The shortest rotation from one unit vector to another.
 mat3 turnBetween(vec3 from, vec3 to);
 
 }  // namespace nephroid

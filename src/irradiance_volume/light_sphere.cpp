@@ -22,14 +22,14 @@ std::vector<vec3> icosahedronVertices() {
   return vertices;
 }
 
-// Counter-clockwise from outside. Neighbouring vertices stand 63.4 degrees apart, others 116.6 or more.
+// Counterclockwise from outside. Neighboring vertices stand 63.4 degrees apart, others 116.6 or more.
 std::vector<uvec3> icosahedronTriangles(const std::vector<vec3>& vertices) {
-  const auto areNeighbours = [&](uint32_t i, uint32_t j) { return dot(vertices[i], vertices[j]) > 0.4f; };
+  const auto areNeighbors = [&](uint32_t i, uint32_t j) { return dot(vertices[i], vertices[j]) > 0.4f; };
   std::vector<uvec3> triangles;
   for (uint32_t i = 0; i < vertices.size(); ++i)
     for (uint32_t j = i + 1; j < vertices.size(); ++j)
       for (uint32_t k = j + 1; k < vertices.size(); ++k) {
-        if (!areNeighbours(i, j) || !areNeighbours(j, k) || !areNeighbours(i, k)) continue;
+        if (!areNeighbors(i, j) || !areNeighbors(j, k) || !areNeighbors(i, k)) continue;
         const bool isOutward = dot(cross(vertices[i], vertices[j]), vertices[k]) > 0;
         triangles.push_back(isOutward ? uvec3(i, j, k) : uvec3(i, k, j));
       }

@@ -1,5 +1,5 @@
-// Directions spread over the sphere: the vertices of an icosahedron whose triangles are cut in four again and
-// again (Wyman 2004, section 4.1).
+// Evenly spread directions: the vertices of an icosahedron whose triangles are cut into four several times
+// (Wyman 2004, section 4.1).
 #pragma once
 
 #include <array>
@@ -20,15 +20,15 @@ struct DirectionTriangle {
 
 class LightSphere {
  public:
-  // Triangles are cut `level` times: 10 * 4^level + 2 directions.
+  // Cuts triangles `level` times; this gives 10 * 4^level + 2 directions.
   explicit LightSphere(uint32_t level);
 
   const std::vector<vec3>& directions() const { return directions_; }  // unit
-  // The finest triangles between them, counter-clockwise from outside.
+  // The finest triangles between the directions, counterclockwise from outside.
   std::span<const uvec3> triangles() const {
     return std::span(triangles_).last(std::size_t{20} << (2 * level_));
   }
-  // The spherical triangle that the unit vector points through, and its barycentric coordinates there.
+  // The triangle around a unit vector, with the vector's barycentric coordinates.
   DirectionTriangle around(vec3 direction) const;
 
  private:

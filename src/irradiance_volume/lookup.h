@@ -1,4 +1,4 @@
-// Looking up the caustic light stored around a caster, once for C++ and GLSL.
+// Looks up the caustic light stored around a caster. Written once for C++ and GLSL.
 //
 // A shader defines `struct VolumeView` with `uvec3 size` and `uint volumeWord(VolumeView volume, uint
 // index)`, `struct FlowView` with `vec3 origin`, `vec3 scale` and `uint side`, and `vec3 flowMove(FlowView
@@ -41,25 +41,26 @@ SHARED_CONSTANT uint kRepresentationMultiResolution = 2u;
 SHARED_CONSTANT uint kRepresentationHarmonics = 3u;  // resolved into a grid before it is looked up
 
 SHARED_CONSTANT uint kWordsOfCell = 2u;
-// What the cells of shells come after: how far around the light's direction the shells reach, as a part of
-// the octahedral map's side; then which shell, counted from within, is at each of so many radii.
+// The words before the cells of shells. The first tells how far around the light's direction the shells
+// reach, as a part of the octahedral map's side. The others tell for kShellRadii + 1 radii which shell,
+// counted from the center, is there.
 SHARED_CONSTANT uint kShellRadii = 64u;
 SHARED_CONSTANT uint kShellWords = kShellRadii + 2u;
-// Shells hold light times the square of its distance from the centre, in regions' radii, no less than this:
-// what spreads from there changes little from shell to shell.
+// Shells hold light multiplied by the square of the distance from the center (in radii of the region; at
+// least this value). Light that spreads from the center then changes little from shell to shell.
 SHARED_CONSTANT float kLeastShellSquare = 1e-3f;
 
-// Intervals between the finest values along the side of a brick of a multi-resolution volume.
+// The number of finest intervals along a brick's side in a multi-resolution volume.
 SHARED_CONSTANT uint kBrickIntervals = 8u;
 SHARED_CONSTANT uint kDarkBrick = 0xffffffffu;
 
-// Light that passes a place. On a surface of unit normal n that light falls on from its front alone, the
-// illuminance is -dot(n, vector), lux for light of 1 lux, shared out on channels by `color`. Facing the
-// object's centre it is Wyman's local irradiance; kept as a vector, a plane of any other orientation receives
-// the flux that crosses it.
+// The light at a place. A surface with the unit normal n, which is lit from its front only, has the
+// illuminance -dot(n, vector) (lux, for light of 1 lux); `color` divides it among the channels. For a surface
+// that faces the caster's center this is Wyman's local irradiance. Because a vector is stored, a surface of
+// any orientation receives the flux that crosses it.
 struct VolumeLight {
   vec3 vector;  // mean over the channels
-  vec3 color;   // weighted by how bright the cells are; only ratios count
+  vec3 color;   // sum over cells, weighted by their brightness; only ratios count
 };
 
 SHARED_FUNCTION VolumeLight noLight() {
@@ -69,7 +70,8 @@ SHARED_FUNCTION VolumeLight noLight() {
   return light;
 }
 
-// A cell is three half floats of the vector, and the red and blue part of the light in 8 bits each.
+// Adds a cell with a weight. A cell is three half floats for the vector, and 8 bits each for the red and the
+// blue part of the light.
 SHARED_FUNCTION void addCell(VolumeView volume, uint cell, float weight, INOUT(VolumeLight) light) {
   uint low = volumeWord(volume, kWordsOfCell * cell);
   uint high = volumeWord(volume, kWordsOfCell * cell + 1u);
@@ -81,9 +83,9 @@ SHARED_FUNCTION void addCell(VolumeView volume, uint cell, float weight, INOUT(V
   light.color += (abs(vector.x) + abs(vector.y) + abs(vector.z)) * vec3(red, 1.0f - red - blue, blue);
 }
 
-// Between the values of a lattice, which come after `first` others: `at` from 0 to size - 1, linear along
-// each axis. `corners` is 8, or 0 for no light: a software device passes over a loop that none of its threads
-// enter, but not over a branch.
+// Trilinear interpolation between the cells of a lattice, which begin after `first` other cells. `at`: from 0
+// to size - 1. `corners`: 8, or 0 for no light. (A software device skips a loop that no thread enters, but it
+// does not skip a branch.)
 SHARED_FUNCTION VolumeLight latticeLight(VolumeView volume, uint first, uvec3 size, vec3 at, uint corners) {
   VolumeLight light = noLight();
   uvec3 corner = min(uvec3(at), max(size, uvec3(2u)) - 2u);
@@ -104,7 +106,8 @@ SHARED_FUNCTION bool isBetween(vec3 place, vec3 end) {
          place.z <= end.z;
 }
 
-// `place` in cells from the grid's corner; nothing beyond the grid. Its cells come after `first` others.
+// The light of a grid whose cells begin after `first` other cells. `place`: in cells from the grid's corner;
+// beyond the grid there is no light.
 #ifdef __cplusplus
 inline VolumeLight gridLight(VolumeView volume, uint first, vec3 place) {
   const vec3 end(volume.size);
@@ -115,8 +118,9 @@ inline VolumeLight gridLight(VolumeView volume, uint first, vec3 place) {
 VolumeLight gridLight(VolumeView volume, uint first, vec3 place);
 #endif
 
-// `place` as in the finest grid. A volume's size is in bricks; it begins with a word for each of them: where
-// its values begin and, in the two lowest bits, how often it is halved along each side.
+// The light of a multi-resolution volume. `place`: in cells of the finest grid. The volume's size is in
+// bricks. It begins with a word for each brick: the index of its first cell and, in the two lowest bits, how
+// many times each side is halved.
 SHARED_FUNCTION VolumeLight brickLight(VolumeView volume, vec3 place) {
   vec3 end = vec3(volume.size * kBrickIntervals);
   vec3 at = clamp(place - 0.5f, vec3(0.0f), end);
@@ -128,9 +132,9 @@ SHARED_FUNCTION VolumeLight brickLight(VolumeView volume, vec3 place) {
                       word != kDarkBrick && isBetween(place, end + 1.0f) ? 8u : 0u);
 }
 
-// Where a place, in regions' radii from the centre, lies among the shells: across them, as cells of a
-// subdivided octahedron about the light's direction, then from shell to shell. What flows in from beyond the
-// last one is as there.
+// Where a place (in radii of the region, from the center) lies in the shells. x and y: in cells of the
+// octahedral map around the light's direction. z: the shell, with a fraction. Places beyond the last shell
+// count as on it.
 SHARED_FUNCTION vec3 placeInShells(VolumeView volume, vec3 place) {
   float radius = length(place);
   vec2 square = octahedralFromDirection(radius > 0.0f ? place / radius : vec3(0.0f, 0.0f, 1.0f));
@@ -151,14 +155,15 @@ SHARED_FUNCTION VolumeLight volumeLight(VolumeView volume, uint representation, 
   return light;
 }
 
-// Where the light of a place comes from when it flows: how displaced, and how stretched around there.
+// The displaced place from which the light of a place is taken, and how space is stretched there.
 struct FlowedPlace {
   vec3 place;
   vec3 stretch[3];  // columns of the derivative of `place`
 };
 
-// By linear interpolation on a lattice of flow.side^3 displacements, which lie at whole numbers of
-// (place - flow.origin) * flow.scale; beyond it as at its border. No displacement where flow.side is 0.
+// Displaces a place by trilinear interpolation on a lattice of flow.side^3 displacements. The nodes lie where
+// (place - flow.origin) * flow.scale is whole; beyond the lattice its border counts. No displacement where
+// flow.side is 0.
 SHARED_FUNCTION FlowedPlace flowedPlace(FlowView flow, vec3 place) {
   FlowedPlace flowed;
   vec3 end = vec3(float(max(flow.side, 2u) - 1u));
@@ -185,8 +190,8 @@ SHARED_FUNCTION FlowedPlace flowedPlace(FlowView flow, vec3 place) {
   return flowed;
 }
 
-// The vector of light that flowed from there: what crosses any surface is what crosses its image (the Piola
-// transform), so that flux is kept however light is displaced.
+// The vector of displaced light. The flux through any surface equals the flux through its image (the Piola
+// transform), so that flux is kept.
 SHARED_FUNCTION vec3 carried(FlowedPlace from, vec3 vector) {
   return vec3(dot(cross(from.stretch[1], from.stretch[2]), vector),
               dot(cross(from.stretch[2], from.stretch[0]), vector),
@@ -200,11 +205,13 @@ SHARED_FUNCTION VolumeLight flowedLight(VolumeView volume, uint representation, 
   return light;
 }
 
-// Light is kept so far from the region's centre, in its radii: short of the border, where cells are cut.
+// Stored light is used up to this distance from the region's center, in its radii: a little less than 1,
+// because cells at the border are cut.
 SHARED_CONSTANT float kRegionEdge = 0.93f;
 
-// Beyond the region light goes on as if it all spread from `source`: the place in the region, in its radii
-// from the centre, that the light of `place` came by, and how much of it is left.
+// Beyond the region, light continues as if all of it came from the point `source`. Returns the place at the
+// region's edge through which the light of `place` came (xyz), and the part of it that is left (w). Lengths
+// are in the region's radii, from its center.
 SHARED_FUNCTION vec4 placeInRegion(vec3 place, vec3 source) {
   if (dot(place, place) <= kRegionEdge * kRegionEdge) return vec4(place, 1.0f);
   vec3 away = place - source;
@@ -216,32 +223,31 @@ SHARED_FUNCTION vec4 placeInRegion(vec3 place, vec3 source) {
   return part > 0.0f && part < 1.0f ? vec4(source + part * away, part * part) : vec4(0.0f);
 }
 
-// Light of the region's edge, which leaves it along the unit vector `outward`, as it goes on along the unit
-// vector `away` from the source: what crosses the edge is what crosses any surface beyond.
+// The light vector beyond the edge. At the edge the light is `vector`, and the edge's normal is `outward`
+// (unit). It continues along `away` (unit, from the source). The flux through the edge is kept.
 SHARED_FUNCTION vec3 spreadOn(vec3 vector, vec3 outward, vec3 away) {
   const float kLeastCosine = 0.1f;
   return (max(dot(vector, outward), 0.0f) / max(dot(away, outward), kLeastCosine)) * away;
 }
 
-// Light of a lamp that is near the caster, as light from afar. The collineation that takes x, a place from
-// the caster's centre, to nearScale(x, nearness) * x makes the rays of a lamp at nearness / dot(nearness,
-// nearness) parallel and leaves all other lines lines: a lens's image of the lamp comes to where its focus
-// is. The nearness of light from afar is zero. No scale where there is no such light: at the lamp and behind
-// it.
+// Treats a lamp near the caster as a light from afar. A projective map takes the place x (from the caster's
+// center) to nearScale(x, nearness) * x. It makes the rays of a lamp at nearness / dot(nearness, nearness)
+// parallel, and all other lines stay lines. So the image of the lamp behind a lens moves to the focus of the
+// lens. For light from afar the nearness is zero. The result is 0 at the lamp and behind it.
 SHARED_FUNCTION float nearScale(vec3 x, vec3 nearness) {
   const float kLeast = 0.02f;
   float part = 1.0f - dot(x, nearness);
   return part > kLeast ? 1.0f / part : 0.0f;
 }
 
-// The vector at x of light that has `vector` where the collineation takes x: what crosses any surface is what
-// crosses its image (the Piola transform).
+// The light vector at x, where the light is `vector` at the place to which the projective map takes x. Flux
+// is kept (the Piola transform).
 SHARED_FUNCTION vec3 nearVector(vec3 vector, vec3 x, vec3 nearness) {
   float scale = nearScale(x, nearness);
   return scale * scale * scale * (vector - dot(nearness, vector) * x);
 }
 
-// Lux by channel on a surface of unit normal `normal`, on the side that it points to.
+// Illuminance (lux, per channel) on the front of a surface with the unit normal `normal`.
 SHARED_FUNCTION vec3 surfaceIlluminance(VolumeLight light, vec3 normal) {
   float sum = light.color.x + light.color.y + light.color.z;
   float illuminance = max(-dot(normal, light.vector), 0.0f);

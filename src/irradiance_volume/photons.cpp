@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t kPhotonsPerBlock = 1024;
 constexpr float kLeastShare = 1e-4f;  // of a photon's flux that is still worth a path
 
-// Evenly over the unit disc: the plastic number's sequence (Roberts 2018) on a square that is mapped to it
+// Evenly over the unit disk: the plastic number's sequence (Roberts 2018) on a square that is mapped to it
 // concentrically (Shirley and Chiu 1997).
 vec2 onDisc(uint32_t index) {
   const double plastic = 1.32471795724474602596;
@@ -32,7 +32,7 @@ vec2 onDisc(uint32_t index) {
   return radius * vec2(std::cos(angle), std::sin(angle));
 }
 
-// Distance from `origin`, inside, to where a line leaves the sphere of `radius` about the centre; 0 from
+// Distance from `origin`, inside, to where a line leaves the sphere of `radius` about the center; 0 from
 // outside it.
 float lengthInside(vec3 origin, vec3 direction, float radius) {
   const float along = dot(origin, direction);

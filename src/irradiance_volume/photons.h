@@ -11,8 +11,8 @@
 
 namespace nephroid {
 
-// A straight part of a photon's way through the air after it met the caster. In a light sample's frame:
-// bounding radii from the centre of the bounding sphere, z along the light.
+// A straight part of a photon's path through the air after it met the caster. In a light sample's frame: in
+// bounding radii from the center of the bounding sphere, z along the light.
 struct PhotonPath {
   vec3 origin{0};
   vec3 direction{0};  // unit
@@ -20,15 +20,18 @@ struct PhotonPath {
   float length = 0;   // bounding radii
 };
 
-// Its flux, the mean of the channels.
+// The flux of a path, as the mean of the channels.
 inline float brightness(const PhotonPath& path) {
   return (path.flux.x + path.flux.y + path.flux.z) / 3;
 }
 
-// What photons of two directions of the light have in common.
-enum class PairedBy { place, entry };  // on the disc of light; where they meet the caster
+// How photons of two light directions are paired.
+enum class PairedBy {
+  place,
+  entry
+};  // by the same place on the disk of light; by the same point where they meet the caster
 
-// The ways of such photons, each in the frame of its light.
+// The paths of a pair of photons, each in the frame of its light.
 struct PhotonPair {
   PhotonPath from;
   PhotonPath to;
@@ -40,14 +43,14 @@ class CasterTracer {
   // Mesh and material must outlive this. Attenuation distances are in the mesh's own units.
   CasterTracer(const Mesh& mesh, const Material& material, Paths paths);
 
-  // `photons` of them, evenly over the disc of the bounding sphere, for light of 1 lux along
-  // `lightDirection`; those that meet nothing have no paths. Paths end `reach` bounding radii from the
-  // centre. The same paths in the same order whatever the number of threads.
+  // Traces `photons` photons, spread evenly over the disk of the bounding sphere, for light of 1 lux along
+  // `lightDirection` (unit). Photons that meet nothing have no paths. Paths end `reach` bounding radii from
+  // the center. Paths and their order do not depend on the number of threads.
   std::vector<PhotonPath> trace(vec3 lightDirection, uint32_t photons, float reach) const;
   // The same for the light's frame: its direction is frame[2].
   std::vector<PhotonPath> trace(const mat3& frame, uint32_t photons, float reach) const;
 
-  // Of photons of the light of one frame, those that have one beside them in the light of another.
+  // Traces photons for the lights of two frames, and returns those that form pairs.
   std::vector<PhotonPair> pairs(const mat3& frame, const mat3& other, PairedBy pairedBy, uint32_t photons,
                                 float reach) const;
 

@@ -1,4 +1,4 @@
-// The caustic light around a caster for one light direction, as it is kept.
+// The stored caustic light around a caster for one light direction.
 #pragma once
 
 #include <span>
@@ -9,14 +9,15 @@
 
 namespace nephroid {
 
-// How a sample's words stand for its region. In the sample's frame, bounding radii from the centre.
+// How the words of a sample cover its region. In the sample's frame, in bounding radii from the center.
 struct SampleLayout {
-  vec3 corner{0};           // where place 0 lies
-  float placesPerUnit = 1;  // of lookup.h, a bounding radius
+  vec3 corner{0};           // the point of place (0, 0, 0)
+  float placesPerUnit = 1;  // places (the coordinates of lookup.h) per bounding radius
   uvec3 size{0};            // VolumeView::size
   uint32_t words = 0;
-  vec3 source{0};         // what light beyond the region spreads from, in the region's radii
-  uint32_t flowSide = 0;  // of the lattice of movements (flow.h) that the words end with; 0 for none
+  vec3 source{0};  // the point from which light beyond the region spreads, in the region's radii
+  uint32_t flowSide =
+      0;  // nodes along a side of the lattice of displacements (flow.h) at the end of the words; 0: none
   bool operator==(const SampleLayout&) const = default;
 };
 
@@ -25,7 +26,7 @@ struct VolumeSample {
   std::vector<uint32_t> words;
 };
 
-// How a sample's light is displaced for another direction of the light: a FlowView's values, in places.
+// The displacements of a sample for another direction of the light, as in FlowView, in units of places.
 struct LightFlow {
   vec3 origin{0};
   vec3 scale{1};
@@ -37,21 +38,21 @@ inline FlowView viewOf(const LightFlow& flow) {
   return {flow.origin, flow.scale, flow.side, flow.moves.data()};
 }
 
-// What a processor sees at `place`, in the sample's frame, bounding radii from the centre.
+// The light at `place` (in the sample's frame, in bounding radii from the center), computed on the processor.
 VolumeLight lightAt(const SampleLayout& layout, std::span<const uint32_t> words, uint32_t representation,
                     vec3 place, const LightFlow& flow = {});
 
-// What the light of the paths, that end `radius` from the centre, spreads from there on: the place that their
-// lines pass nearest to, in that radius. Far away where they are parallel.
+// The point from which light beyond the region spreads: the point nearest to the lines of all paths, in units
+// of `radius`, the region's radius. Far away where the paths are parallel.
 vec3 spreadSource(std::span<const PhotonPath> paths, float radius);
 
-// A cell being filled.
+// The sum of the light in a cell, while it is filled.
 struct CellSum {
   vec3 vector{0};  // mean over the channels
   vec3 color{0};
 };
 
-// The two words of a cell.
+// Writes the two words of a cell.
 void packCell(const CellSum& cell, uint32_t* words);
 
 }  // namespace nephroid

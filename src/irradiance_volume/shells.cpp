@@ -18,7 +18,7 @@ constexpr uint32_t kCellsAcrossPerShell = 3;
 constexpr uint32_t kPartsOfRegion = 16;  // filled in parallel
 
 // Steradians per square of the octahedral map's unit square: of a plane at distance 1 / sqrt(3) of a cube's
-// diagonal, seen from its centre.
+// diagonal, seen from its center.
 float solidAnglePerSquare(vec2 square) {
   const vec2 p = abs(2.0f * square - 1.0f);
   const float fold = std::max(p.x + p.y - 1, 0.0f);
@@ -78,7 +78,7 @@ class ShellGrid {
   std::vector<uint32_t> words_;
 };
 
-// Light times length and square of the distance from the centre in every cell, in the order of the paths.
+// Light times length and square of the distance from the center in every cell, in the order of the paths.
 // Lengths and places in regions' radii.
 std::vector<CellSum> fill(std::span<const PhotonPath> paths, float radius, const ShellGrid& grid) {
   const uvec3 size = grid.size();
@@ -95,7 +95,7 @@ std::vector<CellSum> fill(std::span<const PhotonPath> paths, float radius, const
       const vec3 origin = path.origin / radius;
       const float along = dot(origin, path.direction);
       const float aside2 =
-          dot(origin, origin) - along * along;  // squared distance of the line from the centre
+          dot(origin, origin) - along * along;  // squared distance of the line from the center
       if (aside2 >= outer * outer) continue;
       const float half = std::sqrt(outer * outer - aside2);
       const float hole = aside2 < inner * inner ? std::sqrt(inner * inner - aside2) : 0;
@@ -146,7 +146,7 @@ float volumeOf(const ShellGrid& grid, uvec3 cell) {
   return solidAngle * (outer * outer * outer - inner * inner * inner) / 3;
 }
 
-// Puts shells where what goes through them, by direction from the centre, differs most from one to the next.
+// Puts shells where what goes through them, by direction from the center, differs most from one to the next.
 void placeShells(std::span<const PhotonPath> paths, float radius, ShellGrid& grid) {
   const ShellGrid probe({kProbeAcross, kProbeAcross, kShellRadii}, grid.reach());
   std::vector<PhotonPath> some;

@@ -1,5 +1,5 @@
-// What turns and mirrors a caster onto itself, so that light from fewer directions need be followed (Wyman
-// 2004, section 6).
+// The rotations and reflections that map a caster onto itself. They reduce the number of light directions
+// that have to be traced (Wyman 2004, section 6).
 #pragma once
 
 #include "geometry/bounds.h"
@@ -7,7 +7,7 @@
 
 namespace nephroid {
 
-// About the center of the mesh's bounding sphere, which the center of a symmetric mesh is.
+// Symmetry about the center of the mesh's bounding sphere, which is the center of a symmetric mesh.
 struct Symmetry {
   bool isBall = false;
   uint32_t axis = 3;                        // of revolution: 0, 1, 2; 3 for none
@@ -15,7 +15,8 @@ struct Symmetry {
   bool operator==(const Symmetry&) const = default;
 };
 
-// Found by rays: those turned or mirrored must meet the same surface. `rays` is of the one mesh.
+// Finds the symmetry with rays: rotated or mirrored rays must meet the same surface. `rays`: of the single
+// mesh.
 Symmetry findSymmetry(const RayScene& rays, const Sphere& sphere);
 
 }  // namespace nephroid

@@ -1,6 +1,6 @@
 // The local irradiance of a caster (Wyman, Hansen and Shirley 2004, "Interactive Caustics Using Local
 // Precomputed Irradiance"): for light from sampled directions, the caustic light in the region around it. It
-// is computed in the caster's own space, so it holds wherever the caster is moved, turned and scaled to.
+// is computed in the caster's own space, so it is valid for every position, rotation and scale of the caster.
 #pragma once
 
 #include <array>
@@ -27,16 +27,16 @@ struct VolumeSettings {
   bool operator==(const VolumeSettings&) const = default;
 };
 
-// What a volume was computed for. A volume is only ever used where its key is the one asked for.
+// Everything that a volume depends on. A stored volume is used only where its key is equal to the wanted one.
 struct VolumeKey {
   uint64_t geometry = 0;  // geometryHash
-  uint64_t material = 0;  // hash of all that the light's way and colour depend on, in the mesh's own units
+  uint64_t material = 0;  // hash of everything in the material that the paths and colors of light depend on,
+                          // in the mesh's own units
   VolumeSettings settings;
   bool operator==(const VolumeKey&) const = default;
 };
 
-// The material as the caster's own space has it: what absorbs over a metre does so over less where the
-// caster is scaled down.
+// The material for the caster's own space. `scale`: of the caster; the attenuation distance is divided by it.
 Material materialInOwnSpace(const Material& material, float scale);
 
 VolumeKey volumeKey(const Mesh& mesh, const Material& inOwnSpace, const VolumeSettings& settings);
@@ -48,7 +48,7 @@ struct SampleView {
   std::shared_ptr<const void> owner;
 };
 
-// What a file holds of one volume.
+// The part of a volume that a file holds.
 struct StoredVolume {
   VolumeKey key;
   Symmetry symmetry;
@@ -58,36 +58,39 @@ struct StoredVolume {
 
 class IrradianceVolume {
  public:
-  // Light samples are traced when they are asked for first, and kept in `cacheFolder`, if it is not empty.
-  // The mesh must outlive this.
+  // Light samples are traced when they are first needed, and stored in `cacheFolder` if it is not empty. The
+  // mesh must outlive this.
   IrradianceVolume(const Mesh& mesh, const Material& inOwnSpace, const VolumeSettings& settings,
                    std::filesystem::path cacheFolder);
-  // Light samples are those of a file.
+  // Uses the light samples of a file.
   IrradianceVolume(const Mesh& mesh, StoredVolume stored);
 
   const VolumeKey& key() const { return key_; }
   const Symmetry& symmetry() const { return symmetry_; }
   const Sphere& sphere() const { return sphere_; }
   const LightSamples& lightSamples() const { return lightSamples_; }
-  // m in the caster's own space: where the light kept ends.
+  // The radius (m, in the caster's own space) of the region with stored light.
   float regionRadius() const { return sphere_.radius * float(key_.settings.radius); }
 
-  // How many are kept: one for each light direction, or for each spherical harmonic.
+  // The number of samples: one for each light direction, or one for each spherical harmonic.
   uint32_t sampleCount() const { return uint32_t(samples_.size()); }
   // From the caster's own space to the frame of a light sample.
   mat3 toFrame(const SampleShare& share) const;
-  // Of spherical harmonics: a grid, in the caster's own space, for light whose coefficients are `light`.
+  // For spherical harmonics only: the grid, in the caster's own space, for a light with the coefficients
+  // `light`.
   std::vector<uint32_t> resolve(std::span<const float> light);
 
-  // InputError where a file was given that does not hold it. `makeSample` does not keep it in memory.
+  // A sample; it is kept in memory. Throws InputError where a file was given that does not hold it.
+  // `makeSample` does the same without keeping it.
   const SampleView& sample(uint32_t index);
   SampleView makeSample(uint32_t index);
 
-  // How a light sample's light is displaced for its share.
+  // The displacements of a sample for its share.
   LightFlow flow(const SampleShare& share);
 
-  // Lux by channel at a point of the caster's own space, on the side that the unit vector `normal` points to,
-  // for light of 1 lux that travels along the unit vector `direction`: what the device computes.
+  // The illuminance (lux, per channel) at `point` (in the caster's own space) on the front of a surface with
+  // the unit normal `normal`, for light of 1 lux that travels along `direction` (unit). The same as the
+  // device computes.
   vec3 illuminance(vec3 point, vec3 normal, vec3 direction, LightInterpolation interpolation);
 
  private:
@@ -97,15 +100,15 @@ class IrradianceVolume {
 
   VolumeKey key_;
   std::optional<Material> material_;
-  std::unique_ptr<CasterTracer> tracer_;  // none where a file was given
+  std::unique_ptr<CasterTracer> tracer_;  // null where a file was given
   Symmetry symmetry_;
   Sphere sphere_;
   LightSamples lightSamples_;
   std::filesystem::path cacheFolder_;
   std::vector<std::optional<SampleView>> samples_;
-  std::unique_ptr<IrradianceVolume> base_;  // what spherical harmonics are made of
+  std::unique_ptr<IrradianceVolume> base_;  // the volume from which spherical harmonics are computed
 
-  // All that the illuminance of one direction of the light is made of.
+  // One sample's part in the illuminance for a light direction.
   struct Part {
     SampleView view;
     mat3 toFrame{1};
@@ -117,7 +120,7 @@ class IrradianceVolume {
     LightInterpolation interpolation = LightInterpolation::nearest;
     std::vector<Part> parts;
   };
-  Prepared prepared_;  // of the last illuminance
+  Prepared prepared_;  // for the last call of illuminance
 };
 
 }  // namespace nephroid

@@ -1,5 +1,5 @@
-// A light reduced to what is sampled: a point, a cone of one, a direction, or a point of a panel. Lines,
-// panels and skies are several of these.
+// The emitters that stand for lights where light is sampled: a point, a point with a cone, a direction, or a
+// point of a panel. Lines, panels and skies are represented by several emitters.
 #ifndef NEPHROID_LIGHTS_EMITTER_H
 #define NEPHROID_LIGHTS_EMITTER_H
 
@@ -10,20 +10,21 @@ SHARED_BEGIN
 SHARED_CONSTANT uint kEmitterDirectional = 0u;
 SHARED_CONSTANT uint kEmitterPoint = 1u;
 SHARED_CONSTANT uint kEmitterSpot = 2u;
-SHARED_CONSTANT uint kEmitterPanel =
-    3u;  // as bright from everywhere before it: by the cosine of the angle from its normal
+// Its intensity falls with the cosine of the angle from its normal.
+SHARED_CONSTANT uint kEmitterPanel = 3u;
 
 struct Emitter {
   vec3 position;    // m; without meaning for a directional light
   uint type;        // kEmitter...
-  vec3 direction;   // unit, the way the light travels (directional, spot); the normal of a panel
+  vec3 direction;   // unit, in which the light travels (directional, spot); the normal of a panel
   float coneScale;  // of coneFalloff
   vec3 power;       // cd at its peak, or lux on a facing surface (directional)
   float coneOffset;
-  uint light;  // which of the scene's it stands for: a gobo or profile of that one shapes its light besides
+  uint light;  // index of the scene's light that it stands for; a gobo or profile of that light is not
+               // included here
 };
 
-// Unit vector the light travels along at `point`.
+// The unit vector along which the light travels at `point` (m).
 SHARED_FUNCTION vec3 emitterDirection(Emitter emitter, vec3 point) {
   if (emitter.type == kEmitterDirectional) return emitter.direction;
   return normalize(point - emitter.position);
@@ -35,7 +36,7 @@ SHARED_FUNCTION float coneFalloff(float cosine, float coneScale, float coneOffse
   return linear * linear;
 }
 
-// cd toward the unit vector `direction`, or lux for a directional light.
+// Luminous intensity (cd) toward the unit vector `direction`; lux for a directional light.
 SHARED_FUNCTION vec3 emitterPower(Emitter emitter, vec3 direction) {
   if (emitter.type == kEmitterPanel) return emitter.power * max(dot(emitter.direction, direction), 0.0f);
   if (emitter.type != kEmitterSpot) return emitter.power;

@@ -1,4 +1,4 @@
-// What lights are replaced by where they are sampled: points and directions.
+// The points and directions that stand for a light where it is sampled.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace nephroid {
 
-// What coneFalloff takes besides the angle.
+// The parameters of coneFalloff.
 struct SpotCone {
   float scale = 0;
   float offset = 1;
@@ -16,30 +16,30 @@ struct SpotCone {
 
 SpotCone coneOf(const Light& light);
 
-// m. Of a line or an area the middle; without meaning for light from afar.
+// The position (m) of a light; for a line or an area its middle. Without meaning for light from afar.
 inline vec3 middleOf(const Light& light) {
   if (light.type == LightType::line) return 0.5f * (light.position + light.end);
   return light.type == LightType::area ? light.position + 0.5f * (light.u + light.v) : light.position;
 }
 
-// A light as one emitter: all that it is but for a line's and an area's extent, for gobo and profile
-// (light_intensity.h), and for a sky, which is not one. `index`: of its scene.
+// A light as a single emitter, without the extent of a line or an area, and without gobo and profile
+// (light_intensity.h). Not for a sky. `index`: of the light in its scene.
 Emitter lampOf(const Light& light, uint32_t index = 0);
 
-// Emitters that differ in their place alone, one `step` (m) after another.
+// Emitters that differ only in position, each one `step` (m) after the one before.
 struct EmitterRow {
   Emitter first{};
   vec3 step{0};
   uint32_t count = 1;
 };
 
-// What light `light` stands for, which is the `index`-th of its scene. Points of a line in one row, each at
-// the middle of its part; of an area, likewise, and of a sky each a row of its own. Gobos and profiles are
-// not in them (light_intensity.h).
+// The emitters of a light; `index` is its index in the scene. The points of a line are one row, each in the
+// middle of its part of the line. The points of an area and the parts of a sky are rows of one emitter each.
+// Gobos and profiles are not included (light_intensity.h).
 std::vector<EmitterRow> emitterRowsOf(const Light& light, uint32_t index = 0);
 std::vector<EmitterRow> emitterRowsOf(const Scene& scene);
 
-// The same, one by one.
+// The same as single emitters.
 std::vector<Emitter> emittersOf(const Light& light, uint32_t index = 0);
 std::vector<Emitter> emittersOf(const Scene& scene);
 

@@ -1,4 +1,4 @@
-// What the air takes of a light.
+// The loss of light in the air.
 #pragma once
 
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace nephroid {
 
-// The part of an emitter's light that the air lets come to `point`. Light from afar is as strong as it is
-// said to be until it meets something.
+// The part (0..1) of an emitter's light that comes through the air to `point`. 1 for light from afar, whose
+// given illuminance is valid everywhere in the air.
 inline float airTransmittance(const Scene& scene, const Emitter& emitter, vec3 point) {
   if (!scene.medium || emitter.type == kEmitterDirectional) return 1;
   const vec3 offset = point - emitter.position;

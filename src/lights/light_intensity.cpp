@@ -37,9 +37,9 @@ double integral(const std::vector<float>& angles, const Value& value) {
 // What passes through a gobo toward `local`, ahead of the light: bilinear.
 vec3 goboTransmittance(const Texture& gobo, vec2 turn, vec3 local) {
   const vec2 size(float(gobo.width), float(gobo.height));
-  const vec2 fromCentre = placeInGobo(turn, local);
-  // Texels, from the centre of the upper left one.
-  const vec2 at = glm::clamp(0.5f * size + fromCentre - 0.5f, vec2(0), size - 1.0f);
+  const vec2 fromCenter = placeInGobo(turn, local);
+  // Texels, from the center of the upper left one.
+  const vec2 at = glm::clamp(0.5f * size + fromCenter - 0.5f, vec2(0), size - 1.0f);
   const uvec2 low(at);
   const uvec2 high = min(low + 1u, uvec2(gobo.width, gobo.height) - 1u);
   const vec2 fraction = at - vec2(low);

@@ -7,21 +7,19 @@
 
 namespace nephroid {
 
-// A light with what its intensity in every direction has in common: made once, asked often. The scene must
-// outlive it.
+// A light prepared for many evaluations of its intensity. The scene must outlive it.
 struct ShapedLight {
-  Emitter lamp{};  // all of it in one place
+  Emitter lamp{};  // the light as a single emitter
   LightFrame frame{};
   const Profile* profile = nullptr;
   const Texture* gobo = nullptr;
-  vec2 goboTurn{
-      0};  // texels over the tangent of the angle from the axis, times cosine and sine of its rotation
+  vec2 goboTurn{0};  // as in placeInGobo
 
-  // Not by its cone alone.
+  // Whether it has a profile or a gobo.
   bool isShaped() const { return profile || gobo; }
 };
 
-// For a directional light or a sky, which have no intensity, one without shape.
+// For a directional light or a sky, which have no intensity, the result has no shape.
 ShapedLight shapedLight(const Scene& scene, const Light& light);
 
 std::vector<ShapedLight> shapedLights(const Scene& scene);
@@ -34,18 +32,19 @@ inline vec3 lightIntensity(const Scene& scene, const Light& light, vec3 directio
   return lightIntensity(shapedLight(scene, light), direction);
 }
 
-// Illuminance (lux) at `point` on a surface facing the emitter, which is one of `light`.
+// Illuminance (lux) at `point` (m) on a surface that faces the emitter. The emitter is one of `light`.
 vec3 illuminance(const ShapedLight& light, const Emitter& emitter, vec3 point);
 
-// As much as lightIntensity gives in any direction: neither cone nor gobo nor profile makes a light brighter.
+// An upper bound (cd) of lightIntensity over all directions: cone, gobo and profile never make a light
+// brighter.
 inline vec3 peakIntensity(const Light& light) {
   return light.intensity;
 }
 
-// Part of the peak, 0 to 1, toward `local`: the unit vector's components along right, up and forward.
+// The part (0..1) of the peak toward a direction. `local`: its components along right, up and forward; unit.
 float profileFraction(const Profile& profile, vec3 local);
 
-// Lumens of the profile by itself, at the peak that it was measured with.
+// The flux (lm) of a light with this profile and the profile's own peak.
 double profileFlux(const Profile& profile);
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// A direction as who looks along a light sees it, and where in a gobo it leads, once for C++ and GLSL.
+// The frame of a light, and where a direction meets its gobo. Written once for C++ and GLSL.
 #ifndef NEPHROID_LIGHTS_LIGHT_SHAPE_H
 #define NEPHROID_LIGHTS_LIGHT_SHAPE_H
 
@@ -6,10 +6,10 @@
 
 SHARED_BEGIN
 
-// Unit axes at a light, for who looks along it.
+// The unit axes at a light, as seen by someone who looks along it.
 struct LightFrame {
   vec3 right;
-  vec3 up;       // +Y as far as it can be; straight down -Z, straight up +Z
+  vec3 up;       // as near to +Y as possible; -Z for a light that shines straight down, +Z for straight up
   vec3 forward;  // the light's direction
 };
 
@@ -17,7 +17,7 @@ SHARED_FUNCTION LightFrame lightFrame(vec3 direction) {
   LightFrame frame;
   frame.forward = direction;
   float sine = sqrt(direction.x * direction.x + direction.z * direction.z);
-  // Near the vertical, as of a light that faces -Z and is tilted there.
+  // A vertical light has the frame of a light that faces -Z and was tilted.
   vec3 ahead = sine > 1e-4f ? vec3(direction.x / sine, 0.0f, direction.z / sine) : vec3(0.0f, 0.0f, -1.0f);
   frame.up = normalize(cross(vec3(-ahead.z, 0.0f, ahead.x), direction));
   frame.right = cross(direction, frame.up);
@@ -29,9 +29,9 @@ SHARED_FUNCTION vec3 alongFrame(LightFrame frame, vec3 direction) {
   return vec3(dot(direction, frame.right), dot(direction, frame.up), dot(direction, frame.forward));
 }
 
-// Where in a gobo light goes, ahead of the light: texels from its middle, right and down. `turn`: texels over
-// the tangent of the angle from the axis, times cosine and sine of the image's rotation, clockwise for who
-// looks along the light.
+// Where light meets a gobo: texels to the right and down from its middle. `local`: components of the light's
+// direction in the frame; z must be above 0. `turn`: texels per tangent of the angle from the axis, times the
+// cosine and sine of the gobo's rotation, which is clockwise for a viewer who looks along the light.
 SHARED_FUNCTION vec2 placeInGobo(vec2 turn, vec3 local) {
   vec2 place = vec2(local.x, -local.y) / local.z;
   return vec2(place.x * turn.x + place.y * turn.y, place.y * turn.x - place.x * turn.y);

@@ -1,10 +1,13 @@
-// Looking up a photometric profile (IES LM-63), once for C++ and GLSL.
+// Looks up a photometric profile (IES LM-63). Written once for C++ and GLSL.
 //
-// A shader defines `struct ProfileView` with `uint type`
-// (kProfileType...) and `ivec2 counts` of vertical and horizontal angles, and of a view: `float
-// verticalAngle(ProfileView profile, int i)` and `horizontalAngle` (degrees, ascending), and `float
-// profileValue(ProfileView profile, ivec2 at)`, the part of the peak at the angles of those numbers. Then it
-// includes this.
+// A shader defines these before it includes this file; C++ has them below:
+//
+//   struct ProfileView        with `uint type` (kProfileType...) and `ivec2 counts`, the numbers of vertical
+//                             and horizontal angles
+//   float verticalAngle(ProfileView profile, int i)     degrees, ascending
+//   float horizontalAngle(ProfileView profile, int i)   degrees, ascending
+//   float profileValue(ProfileView profile, ivec2 at)   the part (0..1) of the peak at the angles number at.x
+//                                                       (vertical) and at.y (horizontal)
 #ifndef NEPHROID_LIGHTS_PROFILE_LOOKUP_H
 #define NEPHROID_LIGHTS_PROFILE_LOOKUP_H
 
@@ -33,13 +36,13 @@ inline float profileValue(const ProfileView& profile, ivec2 at) {
 
 SHARED_BEGIN
 
-// First and last of the angles of a profile, in degrees.
+// The first (x) and last (y) angles of a profile, in degrees.
 struct ProfileRange {
   vec2 vertical;
   vec2 horizontal;
 };
 
-// An angle of type C around the light, 0 to 360, as the file has it by symmetry.
+// Maps a horizontal angle of type C (0..360 degrees) by symmetry to an angle of the file.
 SHARED_FUNCTION float foldedAround(vec2 range, float horizontal) {
   if (range.x == 90.0f && range.y == 270.0f) {
     if (horizontal < 90.0f) return 180.0f - horizontal;
@@ -50,7 +53,7 @@ SHARED_FUNCTION float foldedAround(vec2 range, float horizontal) {
   return horizontal;
 }
 
-// An angle of type A or B as the file has it by symmetry.
+// Maps an angle (degrees) of type A or B by symmetry to an angle of the file.
 SHARED_FUNCTION float foldedAside(vec2 range, float angle) {
   return range.x == 0.0f ? abs(angle) : angle;
 }
@@ -71,21 +74,20 @@ SHARED_FUNCTION vec2 profileAngles(uint type, ProfileRange range, vec3 local) {
               foldedAside(range.horizontal, isTypeA ? longitude : latitude));
 }
 
-// Whether the profile is not dark there by definition. Around a light of type C all horizontal angles are in
-// the file, by symmetry.
+// Whether the angles are within the file; outside, the profile is dark. For type C all horizontal angles are
+// within it, by symmetry.
 SHARED_FUNCTION bool profileHolds(uint type, ProfileRange range, vec2 angles) {
   if (angles.x < range.vertical.x || angles.x > range.vertical.y) return false;
   return type == kProfileTypeC || (angles.y >= range.horizontal.x && angles.y <= range.horizontal.y);
 }
 
-// Where `angle` comes among `count` angles (two or more) if they are evenly spaced, as most are: the lower of
-// its neighbours.
+// The index of the angle below `angle` among `count` angles (two or more), if they are evenly spaced, as in
+// most files.
 SHARED_FUNCTION int lowerAngle(vec2 range, int count, float angle) {
   return clamp(int((angle - range.x) / (range.y - range.x) * float(count - 1)), 0, count - 2);
 }
 
-// The part of the peak, 0 to 1, toward a unit vector given along the light's frame: linear between the
-// angles.
+// The part (0..1) of the peak toward a unit vector in the light's frame, linear between the angles.
 SHARED_FUNCTION float profileFraction(ProfileView profile, vec3 local) {
   ivec2 counts = profile.counts;
   ProfileRange range;

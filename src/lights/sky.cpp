@@ -24,7 +24,7 @@ float latitudeAbove(const SkyMap& sky, uint32_t row) {
 
 class Cutter {
  public:
-  explicit Cutter(const SkyMap& map) : sky(map) {}
+  explicit Cutter(const SkyMap& map) : sky_(map) {}
 
   void cut(const Region& region, uint32_t parts) {
     if (parts == 0) return;
@@ -40,9 +40,9 @@ class Cutter {
     SkyPart part;
     vec3 mean(0);
     forEach(region, [&](uint32_t x, uint32_t y) {
-      const vec3 illuminance = sky.luminance[std::size_t{y} * sky.size.x + x] * skyCellAngle(sky, y);
+      const vec3 illuminance = sky_.luminance[std::size_t{y} * sky_.size.x + x] * skyCellAngle(sky_, y);
       part.illuminance += illuminance;
-      mean += luminanceOf(illuminance) * towardSky((vec2(float(x), float(y)) + 0.5f) / vec2(sky.size));
+      mean += luminanceOf(illuminance) * towardSky((vec2(float(x), float(y)) + 0.5f) / vec2(sky_.size));
     });
     if (part.illuminance == vec3(0)) return;
     part.direction = -normalize(mean);
@@ -69,15 +69,15 @@ class Cutter {
 
   // Across its longer side, where it is longest.
   Halves halves(const Region& region) const {
-    const float top = latitudeAbove(sky, region.low.y), bottom = latitudeAbove(sky, region.high.y);
+    const float top = latitudeAbove(sky_, region.low.y), bottom = latitudeAbove(sky_, region.high.y);
     const float widest = top * bottom <= 0 ? 1 : std::cos(std::min(std::abs(top), std::abs(bottom)));
     const uvec2 size = region.high - region.low;
-    const float width = 2 * kPi * float(size.x) / float(sky.size.x) * widest;
+    const float width = 2 * kPi * float(size.x) / float(sky_.size.x) * widest;
     const int axis = size.y == 1 || (size.x > 1 && width > top - bottom) ? 0 : 1;
     std::vector<double> sums(size[axis], 0);
     forEach(region, [&](uint32_t x, uint32_t y) {
       sums[uvec2(x, y)[axis] - region.low[axis]] +=
-          double(luminanceOf(sky.luminance[std::size_t{y} * sky.size.x + x]) * skyCellAngle(sky, y));
+          double(luminanceOf(sky_.luminance[std::size_t{y} * sky_.size.x + x]) * skyCellAngle(sky_, y));
     });
     for (std::size_t i = 1; i < sums.size(); ++i) sums[i] += sums[i - 1];
     // The edge that parts the flux most evenly.
@@ -89,7 +89,7 @@ class Cutter {
     return parts;
   }
 
-  const SkyMap& sky;
+  const SkyMap& sky_;
 };
 
 }  // namespace

@@ -1,25 +1,25 @@
-// Light from all around.
+// Skies: light from all directions.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace nephroid {
 
-// 1 nit everywhere.
+// A sky of 1 nit in every direction.
 SkyMap evenSky();
 
-// Unit vector toward a place of a map, from (0, 0), its upper left corner, to (1, 1).
+// The unit vector toward a place of a map; (0, 0) is the upper left corner, (1, 1) the lower right one.
 vec3 towardSky(vec2 at);
 
-// Steradians of a cell of a row.
+// The solid angle (sr) of a cell in this row.
 float skyCellAngle(const SkyMap& sky, uint32_t row);
 
-// By an angle (degrees) about +y, anticlockwise from above.
+// The rotation about +y by an angle in degrees, counterclockwise from above.
 mat3 skyTurned(float degrees);
 
-// The map in so many parts of about the same flux, each where its light comes from in the mean (median cuts,
-// Debevec 2005), at least two. What they send onto a facing surface adds up to what the map sends. Fewer
-// where the map has fewer cells that shine.
+// Splits the map into `count` parts (at least two) of about the same flux (median cuts, Debevec 2005). Each
+// part is a directional light from the mean direction of its cells. The parts together give the same
+// illuminance on a facing surface as the map. There are fewer parts where the map has fewer cells that shine.
 std::vector<SkyPart> skyParts(const SkyMap& sky, uint32_t count);
 
 }  // namespace nephroid

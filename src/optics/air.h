@@ -1,4 +1,4 @@
-// The air between objects: how dense it is, and how much of it light crosses. Once for C++ and GLSL.
+// The density of the air between objects, and its mean along a line. Written once for C++ and GLSL.
 #ifndef NEPHROID_OPTICS_AIR_H
 #define NEPHROID_OPTICS_AIR_H
 
@@ -6,7 +6,8 @@
 
 SHARED_BEGIN
 
-// Fog lies up to a height and thins out above it, by the factor e for each 1 / inverseFogHeight.
+// Fog is equally dense up to a height. Above, its density falls by the factor e every 1 / inverseFogHeight
+// meters.
 struct Air {
   float extinction;        // 1/m, where it is densest
   float albedo;            // scattering over extinction
@@ -15,21 +16,21 @@ struct Air {
   float inverseFogHeight;  // 1/m; 0: equally dense everywhere
 };
 
-// m: nothing is followed farther through the air.
+// m; light is not followed farther through the air.
 SHARED_CONSTANT float kFarthestAir = 1e7f;
 
-// At a height (m), as a part of the largest there is.
+// The density at a height (m), as a part (0..1) of the largest density.
 SHARED_FUNCTION float fogDensity(Air air, float height) {
   return exp(-max(height - air.fogBase, 0.0f) * air.inverseFogHeight);
 }
 
-// Integral of fogDensity over the height, from the fog's base.
+// The integral (m) of fogDensity over the height, from fogBase; negative below it.
 SHARED_FUNCTION float fogBelow(Air air, float height) {
   float above = height - air.fogBase;
   return above <= 0.0f ? above : (1.0f - exp(-above * air.inverseFogHeight)) / air.inverseFogHeight;
 }
 
-// Mean of fogDensity along a straight way between two heights.
+// The mean of fogDensity along a straight line between two heights (m).
 SHARED_FUNCTION float meanFogDensity(Air air, float from, float to) {
   if (air.inverseFogHeight <= 0.0f) return 1.0f;
   float rise = to - from;

@@ -1,4 +1,5 @@
-// How air scatters light, once for C++ and GLSL. Each phase function integrates to one over all directions.
+// The phase functions, with which air and water scatter light. Each integrates to 1 over all directions.
+// Written once for C++ and GLSL.
 #ifndef NEPHROID_OPTICS_PHASE_H
 #define NEPHROID_OPTICS_PHASE_H
 
@@ -10,9 +11,10 @@ SHARED_CONSTANT uint kPhaseIsotropic = 0u;
 SHARED_CONSTANT uint kPhaseHenyeyGreenstein = 1u;
 SHARED_CONSTANT uint kPhaseNishita = 2u;
 
-// 1/sr scattered from one direction of travel into another; `cosine` is that of the angle between them, 1 for
-// light that goes straight on. `g`: mean cosine (Henyey and Greenstein 1941). Nishita: K (1 + 9 cos^16(angle
-// / 2)) (Dobashi 2002, after Nishita 1987), of which K is 1 / (8 pi).
+// The part of the scattered light per solid angle (1/sr) that goes from one direction of travel into another.
+// `cosine` is the cosine of the angle between the two: 1 for light that goes straight on. `g` is the mean
+// cosine (Henyey and Greenstein 1941). Nishita: K (1 + 9 cos^16(angle / 2)) with K = 1 / (8 pi) (Dobashi
+// 2002, after Nishita 1987).
 SHARED_FUNCTION float phaseFunction(uint type, float g, float cosine) {
   const float inverseFourPi = 0.0795774715f;
   if (type == kPhaseHenyeyGreenstein) {

@@ -1,4 +1,4 @@
-// Snell, Fresnel and Beer-Lambert, once for C++ and GLSL.
+// The laws of Snell, Fresnel and Beer-Lambert. Written once for C++ and GLSL.
 #ifndef NEPHROID_OPTICS_REFRACTION_H
 #define NEPHROID_OPTICS_REFRACTION_H
 
@@ -6,9 +6,9 @@
 
 SHARED_BEGIN
 
-// Fraction of unpolarised flux reflected at a smooth dielectric boundary. `cosIncident` >= 0 is taken against
-// the normal on the incident side; `eta` is the index there over the index beyond. 1 at and past the critical
-// angle.
+// The part (0..1) of unpolarized flux that is reflected at a smooth dielectric boundary. `cosIncident` >= 0:
+// cosine of the angle to the normal. `eta`: the index of refraction on the incident side divided by the one
+// on the other side. The result is 1 at the critical angle and beyond.
 SHARED_FUNCTION float fresnelReflectance(float cosIncident, float eta) {
   float sinTransmittedSquared = eta * eta * (1.0f - cosIncident * cosIncident);
   if (sinTransmittedSquared >= 1.0f) return 1.0f;
@@ -18,8 +18,8 @@ SHARED_FUNCTION float fresnelReflectance(float cosIncident, float eta) {
   return 0.5f * (perpendicular * perpendicular + parallel * parallel);
 }
 
-// Snell's law. `incident` is a unit vector toward the surface, `normal` unit on the incident side. False past
-// the critical angle, where nothing is transmitted and `transmitted` is left as `incident`.
+// Snell's law. `incident`: unit, toward the surface. `normal`: unit, on the incident side. `eta`: as above.
+// Returns false beyond the critical angle; nothing is transmitted there, and `transmitted` is `incident`.
 SHARED_FUNCTION bool refractDirection(vec3 incident, vec3 normal, float eta, OUT(vec3) transmitted) {
   float cosIncident = -dot(incident, normal);
   float sinTransmittedSquared = eta * eta * (1.0f - cosIncident * cosIncident);
@@ -34,8 +34,9 @@ SHARED_FUNCTION vec3 reflectDirection(vec3 incident, vec3 normal) {
   return incident - 2.0f * dot(incident, normal) * normal;
 }
 
-// What a length (m) of the material leaves, when `attenuationColor` is left after `attenuationDistance` (m);
-// an infinite or zero distance means a clear material. (KHR_materials_volume)
+// The transmittance (0..1 per channel) of `pathLength` (m) of a material with the transmittance
+// `attenuationColor` after 1 / `inverseAttenuationDistance` (m) (KHR_materials_volume). An inverse distance
+// of 0 means a clear material.
 SHARED_FUNCTION vec3 volumeTransmittance(vec3 attenuationColor, float inverseAttenuationDistance,
                                          float pathLength) {
   if (inverseAttenuationDistance <= 0.0f) return vec3(1.0f);

@@ -28,16 +28,16 @@ float rounded(float value) {
 
 class Drawing {
  public:
-  Drawing(std::ostringstream& svgText, float leftEdge) : svg(svgText), left(leftEdge) {}
+  Drawing(std::ostringstream& svgText, float leftEdge) : svg_(svgText), left_(leftEdge) {}
 
   void draw(const Chart& chart) {
     const float xMost = std::max(largest(chart.left, 0), largest(chart.right, 0));
-    text(left + kWidth / 2, 20, "middle", "#000", chart.title);
-    text(left + kWidth / 2, kHeight - 10, "middle", "#000", chart.xName);
-    svg << "<rect x='" << left + kMargin << "' y='" << kMargin << "' width='" << kWidth - 2 * kMargin
-        << "' height='" << kHeight - 2 * kMargin << "' fill='none' stroke='#888'/>\n";
+    text(left_ + kWidth / 2, 20, "middle", "#000", chart.title);
+    text(left_ + kWidth / 2, kHeight - 10, "middle", "#000", chart.xName);
+    svg_ << "<rect x='" << left_ + kMargin << "' y='" << kMargin << "' width='" << kWidth - 2 * kMargin
+         << "' height='" << kHeight - 2 * kMargin << "' fill='none' stroke='#888'/>\n";
     for (const float part : {0.0f, 0.5f, 1.0f})
-      text(left + kMargin + part * (kWidth - 2 * kMargin), kHeight - kMargin + 16, "middle", "#000",
+      text(left_ + kMargin + part * (kWidth - 2 * kMargin), kHeight - kMargin + 16, "middle", "#000",
            number(part * xMost));
     drawCurve(chart.left, xMost, kLeftColor, false);
     drawCurve(chart.right, xMost, kRightColor, true);
@@ -51,26 +51,27 @@ class Drawing {
   }
 
   void text(float x, float y, const char* anchor, const char* color, const std::string& words) {
-    svg << "<text x='" << x << "' y='" << y << "' text-anchor='" << anchor << "' fill='" << color << "'>"
-        << words << "</text>\n";
+    svg_ << "<text x='" << x << "' y='" << y << "' text-anchor='" << anchor << "' fill='" << color << "'>"
+         << words << "</text>\n";
   }
 
   void drawCurve(const Curve& curve, float xMost, const char* color, bool isRight) {
     const float yMost = rounded(largest(curve, 1));
-    const float edge = isRight ? left + kWidth - kMargin + 6 : left + kMargin - 6;
+    const float edge = isRight ? left_ + kWidth - kMargin + 6 : left_ + kMargin - 6;
     const char* anchor = isRight ? "start" : "end";
-    text(isRight ? left + kWidth - 6 : left + 6, kMargin - 14, isRight ? "end" : "start", color, curve.name);
+    text(isRight ? left_ + kWidth - 6 : left_ + 6, kMargin - 14, isRight ? "end" : "start", color,
+         curve.name);
     for (const float part : {0.0f, 0.5f, 1.0f})
       text(edge, kHeight - kMargin - part * (kHeight - 2 * kMargin) + 4, anchor, color, number(part * yMost));
-    svg << "<polyline fill='none' stroke='" << color << "' stroke-width='2' points='";
+    svg_ << "<polyline fill='none' stroke='" << color << "' stroke-width='2' points='";
     for (const vec2 point : curve.points)
-      svg << left + kMargin + point.x / xMost * (kWidth - 2 * kMargin) << ','
-          << kHeight - kMargin - point.y / yMost * (kHeight - 2 * kMargin) << ' ';
-    svg << "'/>\n";
+      svg_ << left_ + kMargin + point.x / xMost * (kWidth - 2 * kMargin) << ','
+           << kHeight - kMargin - point.y / yMost * (kHeight - 2 * kMargin) << ' ';
+    svg_ << "'/>\n";
   }
 
-  std::ostringstream& svg;
-  float left;
+  std::ostringstream& svg_;
+  float left_;
 };
 
 }  // namespace

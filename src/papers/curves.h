@@ -1,4 +1,4 @@
-// Curves over a common axis, as a picture.
+// Charts with curves, as SVG.
 #pragma once
 
 #include <string>
@@ -16,10 +16,10 @@ struct Curve {
 struct Chart {
   std::string title;
   std::string xName;
-  Curve left, right;  // each against an axis of its own, both from 0
+  Curve left, right;  // two curves, each with its own y axis, which begins at 0
 };
 
-// Side by side, as SVG.
+// One SVG with the charts side by side.
 std::string chartsSvg(const std::vector<Chart>& charts);
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// How long frames take.
+// Measures frame times.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace nephroid {
 
-// The device that frames are timed on, where there is one, and what a table's title says of it.
+// The device on which frames are timed, if there is one, and its description for a table's title.
 struct BenchDevice {
   explicit BenchDevice(const PaperBench& bench);
   gpu::Device* orNone() { return device ? &*device : nullptr; }
@@ -18,21 +18,22 @@ struct BenchDevice {
   std::string on;  // "on NAME", "without frame rates: WHY"
 };
 
-// A scene's technique and what draws its frames.
+// Draws frames of a scene with a technique, and times them.
 class FrameBench {
  public:
   // Device and progress outlive it.
   FrameBench(gpu::Device& device, const Scene& scene, const TechniqueSettings& settings,
              const RenderSettings& render, Progress& progress);
 
-  // The median seconds of `frames` frames, after `warmUps`, which make images and programs.
+  // Returns the median time (s) of `frames` frames. Before them, `warmUps` frames are drawn without timing,
+  // which create images and programs.
   struct Counts {
     int warmUps, frames;
   };
   double seconds(Counts counts, const std::function<Scene(int)>& sceneOfFrame);
   double seconds(Counts counts, const Scene& still);
 
-  // The median over the same frames; 0 where there was no such pass.
+  // The median time of one pass in those frames; 0 where there was no such pass.
   double passMilliseconds(const std::string& pass) const;
 
   const Stats& stats() const { return stats_; }  // of the last frame

@@ -75,7 +75,7 @@ double paperKilobytes(const MemoryRow& row, uint32_t representation) {
 // Light of the paths through a square, `half` its side, across the unit vector `axis`; and the same read from
 // the volume.
 struct Square {
-  vec3 centre{0};
+  vec3 center{0};
   mat3 frame{1};  // its normal last
   float half = 1;
 };
@@ -88,9 +88,9 @@ double tracedThrough(const CasterTracer& tracer, const std::vector<PhotonPath>& 
     const vec3 origin = tracer.sphere().center + radius * (lightFrame * path.origin);
     const vec3 direction = lightFrame * path.direction;
     const float toward = dot(direction, square.frame[2]);
-    const float along = dot(square.centre - origin, square.frame[2]) / toward;
+    const float along = dot(square.center - origin, square.frame[2]) / toward;
     if (toward <= 0 || along < 0 || along > radius * path.length) continue;
-    const vec3 place = glm::transpose(square.frame) * (origin + along * direction - square.centre);
+    const vec3 place = glm::transpose(square.frame) * (origin + along * direction - square.center);
     if (std::max(std::abs(place.x), std::abs(place.y)) < square.half)
       flux += double(path.flux.y * radius * radius);
   }
@@ -103,7 +103,7 @@ double readThrough(IrradianceVolume& volume, vec3 light, const Square& square) {
   for (int y = 0; y < kPoints; ++y)
     for (int x = 0; x < kPoints; ++x) {
       const vec2 place = square.half * ((vec2(float(x), float(y)) + 0.5f) * (2.0f / kPoints) - 1.0f);
-      const vec3 point = square.centre + square.frame * vec3(place, 0);
+      const vec3 point = square.center + square.frame * vec3(place, 0);
       sum += double(
           volume.illuminance(point, -square.frame[2], light, IrradianceVolumeSettings{}.lightInterpolation)
               .y);

@@ -48,12 +48,13 @@ Levels levelsOf(const Image& image, float exposure) {
 
 class Bench {
  public:
-  Bench(gpu::Device& deviceToUse, Progress& progressToShow) : device(deviceToUse), progress(progressToShow) {}
+  Bench(gpu::Device& deviceToUse, Progress& progressToShow)
+      : device_(deviceToUse), progress_(progressToShow) {}
 
   Drawn draw(const Scene& scene, const ShaftSettings& shafts, int frames = kFrames) const {
     TechniqueSettings settings;
     settings.technique = "none";
-    FrameBench bench(device, scene, settings, {.size = kSizeOfShafts, .shafts = shafts}, progress);
+    FrameBench bench(device_, scene, settings, {.size = kSizeOfShafts, .shafts = shafts}, progress_);
     const double seconds = bench.seconds({.warmUps = 1, .frames = frames}, scene);
     Drawn drawn{bench.renderer().layers(), {}, seconds, bench.renderer().shafts().planes()};
     drawn.levels = levelsOf(drawn.image, scene.camera.exposure);
@@ -61,8 +62,8 @@ class Bench {
   }
 
  private:
-  gpu::Device& device;
-  Progress& progress;
+  gpu::Device& device_;
+  Progress& progress_;
 };
 
 double rootMeanSquare(const Levels& a, const Levels& b) {

@@ -5,7 +5,7 @@
 
 namespace nephroid {
 
-// Writes its curves to bench.curves where that is named.
+// Writes its curves to the file bench.curves, if it is given.
 PaperTable measurePaper4(const PaperBench& bench, Progress& progress);
 
 }  // namespace nephroid

@@ -31,7 +31,7 @@ constexpr std::array<Pool, 4> kPools{{
      {6.85, 4.89, 3.58},
      {7.33, 5.40, 4.00},
      {5.58, 4.26, 3.27}},
-    {"1, centre",
+    {"1, center",
      "paper5-treasure",
      {36.52, 49.89, 55.38},
      {11.98, 7.98, 5.17},
@@ -139,7 +139,7 @@ void addRow(PaperTable& table, const Pool& view, std::size_t grid, const Scene& 
 
 PaperTable measurePaper5(const PaperBench& bench, Progress& progress) {
   const std::filesystem::path folder = paperScenes(bench);
-  std::vector<Scene> scenes;  // what is wrong with one is told before anything is measured
+  std::vector<Scene> scenes;  // errors in a scene are reported before anything is measured
   for (const Pool& view : kPools) scenes.push_back(loadScene(folder / (std::string(view.scene) + ".toml")));
   gpu::Device device({.device = bench.device});
   PaperTable table{

@@ -8,11 +8,12 @@
 
 namespace nephroid {
 
-// The folder that `bench` names; else share/nephroid beside the program's folder, where an installed program
-// has them, or the source tree around it. Throws InputError, naming the places.
+// The folder of the papers' scenes: the one in `bench`; without it, share/nephroid beside the program's
+// folder (an installed program), or the source tree around the program. Throws InputError, with these places,
+// where none exists.
 std::filesystem::path paperScenes(const PaperBench& bench);
 
-// That of paper 3 with this name, in that folder.
+// Loads the scene of paper 3 with this name from that folder.
 Scene loadPaper3(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace nephroid

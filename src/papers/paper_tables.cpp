@@ -61,15 +61,15 @@ class Layout {
  public:
   explicit Layout(const std::vector<PaperFigure>& figures) {
     for (const PaperFigure& figure : figures) {
-      rowWidth = std::max(rowWidth, figure.row.size());
+      rowWidth_ = std::max(rowWidth_, figure.row.size());
       Column& column = columnOf(figure);
       column.isAsked = column.isAsked || !std::isnan(figure.asked);
     }
   }
 
   std::string head() const {
-    std::string names = padded("", rowWidth), parts = names;
-    for (const Column& column : columns) {
+    std::string names = padded("", rowWidth_), parts = names;
+    for (const Column& column : columns_) {
       const std::size_t width = kNumberWidth * (column.isAsked ? 4 : 2);
       names += "  " + padded(column.name, width);
       parts += "  " + toTheRight("paper");
@@ -81,8 +81,8 @@ class Layout {
   }
 
   std::string line(std::span<const PaperFigure> row) const {
-    std::string text = padded(row.front().row, rowWidth);
-    for (const Column& column : columns) {
+    std::string text = padded(row.front().row, rowWidth_);
+    for (const Column& column : columns_) {
       const auto found =
           std::ranges::find_if(row, [&](const PaperFigure& f) { return nameOf(f) == column.name; });
       const PaperFigure figure = found == row.end() ? PaperFigure{} : *found;
@@ -120,13 +120,13 @@ class Layout {
 
   Column& columnOf(const PaperFigure& figure) {
     const std::string name = nameOf(figure);
-    const auto known = std::ranges::find(columns, name, &Column::name);
-    if (known != columns.end()) return *known;
-    return columns.emplace_back(Column{name, false});
+    const auto known = std::ranges::find(columns_, name, &Column::name);
+    if (known != columns_.end()) return *known;
+    return columns_.emplace_back(Column{name, false});
   }
 
-  std::size_t rowWidth = 0;
-  std::vector<Column> columns;
+  std::size_t rowWidth_ = 0;
+  std::vector<Column> columns_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The papers' tables measured again: theirs beside ours.
+// Measures the papers' tables again, and shows the paper's figures beside ours.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace nephroid {
 
-// Of a figure that there is none of.
+// The value of a figure that does not exist.
 inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
 // One number of a table.
@@ -20,20 +20,20 @@ struct PaperFigure {
   std::string unit;
   double paper = kNoFigure;
   double ours = kNoFigure;
-  double asked = kNoFigure;  // what ours should reach
+  double asked = kNoFigure;  // the value that ours should reach
   bool lessIsBetter = false;
 
-  // How many times as good as asked for.
+  // How many times better than required the measured figure is.
   double ratio() const { return lessIsBetter ? asked / ours : ours / asked; }
 };
 
 struct PaperTable {
-  std::string name;   // what a user asks for it by
+  std::string name;   // the name by which users select it
   std::string title;  // which table of which paper, and what it was measured on
   std::vector<PaperFigure> figures;
 };
 
-// Where and on what tables are measured.
+// The scenes and the device for the measurement.
 struct PaperBench {
   std::filesystem::path scenes;  // the folder of the papers' scenes; empty: looked for by paperScenes
   std::string device;            // as gpu::DeviceOptions has it
@@ -42,8 +42,8 @@ struct PaperBench {
 
 std::vector<std::string> paperTableNames();
 
-// Measures one of paperTableNames() on this machine. Frame rates are left out, and the title says why, where
-// there is no device that could draw. Throws InputError where a scene is not there.
+// Measures one of paperTableNames() on this machine. Without a usable device, frame rates are left out, and
+// the title gives the reason. Throws InputError where a scene is missing.
 PaperTable measurePaperTable(const std::string& name, const PaperBench& bench, Progress& progress);
 
 // Lines for a reader, and the same as JSON.

@@ -108,7 +108,7 @@ void addRow(PaperTable& table, const Row& row, const Scene& scene, gpu::Device* 
 
 PaperTable measurePapers1And2(const PaperBench& bench, Progress& progress) {
   const std::filesystem::path folder = paperScenes(bench);
-  std::vector<Scene> scenes;  // what is wrong with one is told before anything is measured
+  std::vector<Scene> scenes;  // errors in a scene are reported before anything is measured
   for (const Row& row : kRows) scenes.push_back(loadScene(folder / (std::string(row.scene) + ".toml")));
   BenchDevice device(bench);
   PaperTable table{

@@ -1,3 +1,4 @@
+// Measures the time to make light transport tables, and their size.
 #pragma once
 
 #include "core/progress.h"
@@ -5,7 +6,7 @@
 
 namespace nephroid {
 
-// Light transport tables of 129 directions, made from nothing.
+// The size and time of light transport tables of 129 directions, made without a cache.
 struct TableTimes {
   std::size_t vertices = 0;
   std::size_t bytes = 0;
@@ -14,7 +15,7 @@ struct TableTimes {
 
 TableTimes timeTable(const Mesh& mesh, vec3 ior, Progress& progress);
 
-// Those of a scene's casters, each mesh and index of refraction once.
+// The sum over a scene's casters; each mesh and index of refraction counts once.
 TableTimes timeTables(const Scene& scene, Progress& progress);
 
 }  // namespace nephroid

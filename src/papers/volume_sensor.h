@@ -1,4 +1,4 @@
-// What an illuminance meter under a caster reads of its irradiance volume, and of the truth.
+// Reads an illuminance meter under a caster: by its irradiance volume, by the reference, and by beams.
 #pragma once
 
 #include "core/progress.h"
@@ -7,26 +7,26 @@
 
 namespace nephroid {
 
-// The scene's first; it has one.
+// The first caster of the scene, which must have one.
 const Object& casterOf(const Scene& scene);
 
-// Of the scene's first caster, with nothing in the cache.
+// The irradiance volume of the first caster, without using the cache.
 IrradianceVolume volumeOf(const Scene& scene, const VolumeSettings& settings);
 
-// Caustics of the scene's first light, which is directional, on its first sensor, from pointsAcross^2 points
-// of every texel.
+// The caustics (lux) of the scene's first light, which must be directional, on its first sensor. Each texel
+// is the mean of pointsAcross^2 points.
 SensorLayer readVolume(const Scene& scene, IrradianceVolume& volume, LightInterpolation interpolation,
                        uint32_t pointsAcross);
 
 // The same by the reference's photons: unbiased, noisy.
 SensorLayer readReference(const Scene& scene, uint32_t passes);
 
-// The same by beams that the sensor itself cuts, refined where they bend: without noise. Of light that a
-// mirror reflects more than once they have the last way alone.
+// The same by beams, which are cut at the sensor's plane and refined where they bend: without noise. Where a
+// mirror reflects light several times, only the last path is included.
 SensorLayer readBeams(const Scene& scene, Progress& progress);
 
 double meanOf(const SensorLayer& layer);
-// Root of the mean square difference.
+// The root mean square difference.
 double rootMeanSquare(const SensorLayer& a, const SensorLayer& b);
 
 }  // namespace nephroid

@@ -24,9 +24,9 @@ Facing facing(const Hit& hit, vec3 direction) {
 }  // namespace
 
 Boundaries::Boundaries(const Scene& scene, const RayScene& rayScene)
-    : rays(rayScene), materials(materialsOf(scene)), air(scene.medium) {
-  for (const Material* material : materials) extinctions.push_back(extinctionOf(*material));
-  for (const Object& object : scene.objects) isCurved.push_back(scene.meshOf(object).isCurved);
+    : rays_(rayScene), materials_(materialsOf(scene)), air_(scene.medium) {
+  for (const Material* material : materials_) extinctions_.push_back(extinctionOf(*material));
+  for (const Object& object : scene.objects) isCurved_.push_back(scene.meshOf(object).isCurved);
 }
 
 // A smooth normal may not send a path through the surface. Where it would, the triangle's own counts; but a
@@ -36,13 +36,13 @@ bool Boundaries::reflect(const Hit& hit, Carried carried, Path& path) const {
   const vec3 reflected = reflectDirection(path.direction, normals.smooth);
   const bool isSound = dot(reflected, normals.geometric) > 0;
   path.direction = isSound ? reflected : reflectDirection(path.direction, normals.geometric);
-  return isSound || carried == Carried::radiance || isCurved[hit.object];
+  return isSound || carried == Carried::radiance || isCurved_[hit.object];
 }
 
 bool Boundaries::send(const Hit& hit, const Band& band, Carried carried, Choice choice, Random& random,
                       Path& path) const {
   path.metCaster = true;
-  const Material& material = *materials[hit.object];
+  const Material& material = *materials_[hit.object];
   if (material.type == MaterialType::mirror) {
     path.throughput *= material.color;
     return reflect(hit, carried, path);
@@ -55,7 +55,7 @@ bool Boundaries::send(const Hit& hit, const Band& band, Carried carried, Choice 
 bool Boundaries::crossDielectric(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
                                  Path& path) const {
   const bool entering = dot(path.direction, hit.geometricNormal) < 0;
-  const float volume = rays.enclosedVolume(hit.object);
+  const float volume = rays_.enclosedVolume(hit.object);
   // What leaves an object it never entered, through an open mesh, was inside it all the same.
   if (!entering && !path.media.contains(hit.object)) path.media.enter(hit.object, volume);
   MediumStack beyond = path.media;
@@ -97,7 +97,7 @@ bool Boundaries::crossDielectric(const Hit& hit, const Band& band, Carried carri
 // A sheet too thin to bend light: what both its faces let through, reflections between them included.
 bool Boundaries::crossThinWall(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
                                Path& path) const {
-  const Material& material = *materials[hit.object];
+  const Material& material = *materials_[hit.object];
   const Facing normals = facing(hit, path.direction);
   const float face = fresnelReflectance(std::min(1.0f, -dot(path.direction, normals.smooth)),
                                         1 / indexOfRefraction(material, band));
@@ -111,37 +111,37 @@ bool Boundaries::crossThinWall(const Hit& hit, const Band& band, Carried carried
 }
 
 vec3 Boundaries::transmittance(uint32_t object, vec3 from, vec3 direction, float length) const {
-  if (object == kNone) return vec3(air ? std::exp(-opticalDepth(*air, from, direction, length)) : 1.0f);
-  const vec3 extinction = extinctions[object];
+  if (object == kNone) return vec3(air_ ? std::exp(-opticalDepth(*air_, from, direction, length)) : 1.0f);
+  const vec3 extinction = extinctions_[object];
   if (extinction == vec3(0)) return vec3(1);
   return glm::exp(-extinction * length);
 }
 
 bool Boundaries::isScattering(uint32_t object) const {
-  return object == kNone ? air && scatters(*air) : scatters(*materials[object]);
+  return object == kNone ? air_ && scatters(*air_) : scatters(*materials_[object]);
 }
 
 vec3 Boundaries::scattering(uint32_t object, vec3 point) const {
-  return object == kNone ? vec3(scatteringAt(*air, point)) : materials[object]->scattering;
+  return object == kNone ? vec3(scatteringAt(*air_, point)) : materials_[object]->scattering;
 }
 
 float Boundaries::phase(uint32_t object, float cosine) const {
-  if (object == kNone) return phaseOf(*air, cosine);
-  return phaseFunction(phaseCode(materials[object]->phase), materials[object]->g, cosine);
+  if (object == kNone) return phaseOf(*air_, cosine);
+  return phaseFunction(phaseCode(materials_[object]->phase), materials_[object]->g, cosine);
 }
 
 float Boundaries::meanExtinction(uint32_t object) const {
-  if (object == kNone) return air ? air->extinction : 0;
-  const vec3& extinction = extinctions[object];
+  if (object == kNone) return air_ ? air_->extinction : 0;
+  const vec3& extinction = extinctions_[object];
   return (extinction.x + extinction.y + extinction.z) / 3;
 }
 
 MediumStack Boundaries::mediaAround(vec3 point) const {
-  return nephroid::mediaAround(rays, materials, point);
+  return nephroid::mediaAround(rays_, materials_, point);
 }
 
 float Boundaries::indexIn(uint32_t object, const Band& band) const {
-  return object == kNone ? 1.0f : indexOfRefraction(*materials[object], band);
+  return object == kNone ? 1.0f : indexOfRefraction(*materials_[object], band);
 }
 
 }  // namespace nephroid

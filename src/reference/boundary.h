@@ -1,4 +1,4 @@
-// What becomes of light, or of a line of sight, where it meets a caster.
+// What happens to light, or to a view ray, at the surface of a caster.
 #pragma once
 
 #include "core/random.h"
@@ -7,21 +7,21 @@
 
 namespace nephroid {
 
-// flux: photons on their way from a light. radiance: a line of sight, followed against the light; radiance
-// grows by the square of the index it enters (Veach 1997, 5.2), flux does not.
+// What a path carries. flux: photons from a light. radiance: a view ray, followed against the light. At a
+// refraction radiance changes by the square of the index of refraction (Veach 1997, 5.2); flux does not.
 enum class Carried { flux, radiance };
 
-// A photon or a line of sight between two surfaces.
+// The state of a photon or a view ray between two surfaces.
 struct Path {
   vec3 direction{0};   // unit
-  vec3 throughput{1};  // what is left of it, without the weight of its band
-  MediumStack media;   // what it is inside of
+  vec3 throughput{1};  // the part that is left per channel, without the weight of its band
+  MediumStack media;   // the objects that it is inside of
   bool metCaster = false;
-  bool isDispersed = false;  // its band's weight counts
+  bool isDispersed = false;  // it was dispersed, so that the weight of its band counts
 };
 
-// Which way a path goes from glass, where it may go two: either, as often as light does; or one of them, with
-// the share of light that goes there as its weight.
+// The choice between reflection and transmission at glass. random: with the probability of each part of the
+// light. reflected, transmitted: always this one, with its part of the light as the weight.
 enum class Choice { random, reflected, transmitted };
 
 class Boundaries {
@@ -29,26 +29,27 @@ class Boundaries {
   // Both must outlive this.
   Boundaries(const Scene& scene, const RayScene& rays);
 
-  // Sends a path on from a caster. False: it is lost, or is to be transmitted and totally reflected.
+  // Continues a path at the surface of a caster. Returns false where the path ends: its light is lost, or
+  // `choice` is transmitted and all light is reflected.
   bool send(const Hit& hit, const Band& band, Carried carried, Choice choice, Random& random,
             Path& path) const;
 
-  // The part of light that a length (m, may be infinite) of an object's material, or of the air for kNone,
-  // lets through along unit `direction`.
+  // The transmittance (0..1 per channel) of an object's material, or of the air for kNone, from `from` along
+  // `direction` (unit). `length`: m, may be infinite.
   vec3 transmittance(uint32_t object, vec3 from, vec3 direction, float length) const;
 
-  // How an object's material, or the air, scatters: 1/m at a point, and 1/sr by the cosine between the ways
-  // light travels before and after.
+  // Scattering of an object's material, or of the air for kNone. scattering: the coefficient (1/m) at a
+  // point. phase: the phase function (1/sr) by the cosine between the directions of travel before and after.
   bool isScattering(uint32_t object) const;
   vec3 scattering(uint32_t object, vec3 point) const;
   float phase(uint32_t object, float cosine) const;
-  // 1/m, of the channels; of the air where it is densest.
+  // Extinction (1/m), the mean of the channels; for the air where it is densest.
   float meanExtinction(uint32_t object) const;
 
-  bool isCaster(const Hit& hit) const { return materials[hit.object]->isCaster(); }
-  const Material& materialOf(const Hit& hit) const { return *materials[hit.object]; }
+  bool isCaster(const Hit& hit) const { return materials_[hit.object]->isCaster(); }
+  const Material& materialOf(const Hit& hit) const { return *materials_[hit.object]; }
   MediumStack mediaAround(vec3 point) const;
-  const RayScene& rayScene() const { return rays; }
+  const RayScene& rayScene() const { return rays_; }
 
  private:
   bool crossDielectric(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
@@ -58,11 +59,11 @@ class Boundaries {
   bool reflect(const Hit& hit, Carried carried, Path& path) const;
   float indexIn(uint32_t object, const Band& band) const;
 
-  const RayScene& rays;
-  std::vector<const Material*> materials;  // of the objects
-  std::vector<vec3> extinctions;           // of the objects
-  std::vector<bool> isCurved;              // their meshes
-  const std::optional<Medium>& air;
+  const RayScene& rays_;
+  std::vector<const Material*> materials_;  // of the objects
+  std::vector<vec3> extinctions_;           // of the objects
+  std::vector<bool> isCurved_;              // their meshes
+  const std::optional<Medium>& air_;
 };
 
 }  // namespace nephroid

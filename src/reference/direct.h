@@ -1,4 +1,4 @@
-// Light that met no caster.
+// Direct light: light that met no caster.
 #pragma once
 
 #include "reference/boundary.h"
@@ -6,21 +6,21 @@
 
 namespace nephroid {
 
-// A place that is lit, and what it is inside of.
+// A point to be lit, and the medium around it.
 struct LitPoint {
   vec3 position{0};
   vec3 normal{0};           // unit, shading
   vec3 geometricNormal{0};  // unit, on the side that is lit
   uint32_t medium = kNone;  // object around it
-  float clearance = 0;      // m of a shadow ray that are not looked at
+  float clearance = 0;      // m, the beginning of a shadow ray that is not tested
 };
 
-// Illuminance (lux) by one light along a shadow ray. A directional light is as strong in the air as it is
-// said to be; others are weakened by it on their way.
+// Illuminance (lux) by one light, with a shadow ray. The air weakens lights on their way, except directional
+// lights, whose given illuminance is valid everywhere in the air.
 vec3 directIlluminance(const Boundaries& boundaries, const Lights& lights, uint32_t light,
                        const LitPoint& point, Random& random);
 
-// Whether light along `illumination` comes to `point` without meeting anything.
+// Whether nothing stands between `point` and the light of `illumination`. `clearance`: as in LitPoint.
 bool isLit(const RayScene& rays, const Illumination& illumination, vec3 point, float clearance);
 
 }  // namespace nephroid

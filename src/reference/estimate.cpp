@@ -39,40 +39,40 @@ void RunningMean::add(std::span<const vec3> pass, uint32_t passes) {
   const auto count = static_cast<float>(passes);
   const float kept = passes > 1 ? (count - 2) / count : 0;
   for (std::size_t i = 0; i < pass.size(); ++i) {
-    const vec3 step = (pass[i] - mean[i]) / count;
-    variance[i] = passes > 1 ? variance[i] * kept + step * step : vec3(0);
-    mean[i] += step;
+    const vec3 step = (pass[i] - mean_[i]) / count;
+    variance_[i] = passes > 1 ? variance_[i] * kept + step * step : vec3(0);
+    mean_[i] += step;
   }
 }
 
 void RunningMean::writeMean(Image& image, const std::string& prefix) const {
-  writeChannels(image, prefix, mean, same);
+  writeChannels(image, prefix, mean_, same);
 }
 
 void RunningMean::writeVariance(Image& image, const std::string& prefix) const {
-  writeChannels(image, prefix, variance, same);
+  writeChannels(image, prefix, variance_, same);
 }
 
 void RunningMean::writeStandardError(Image& image, const std::string& prefix) const {
-  writeChannels(image, prefix, variance, [](float value) { return std::sqrt(value); });
+  writeChannels(image, prefix, variance_, [](float value) { return std::sqrt(value); });
 }
 
 void RunningMean::readMean(const Image& image, const std::string& prefix) {
-  readChannels(image, prefix, mean);
+  readChannels(image, prefix, mean_);
 }
 
 void RunningMean::readVariance(const Image& image, const std::string& prefix) {
-  readChannels(image, prefix, variance);
+  readChannels(image, prefix, variance_);
 }
 
 double RunningMean::noise() const {
   constexpr double kShare = 0.95;
   std::vector<std::pair<float, float>> pixels;  // value, standard error
   double light = 0;
-  for (std::size_t i = 0; i < mean.size(); ++i) {
-    const float value = mean[i].x + mean[i].y + mean[i].z;
+  for (std::size_t i = 0; i < mean_.size(); ++i) {
+    const float value = mean_[i].x + mean_[i].y + mean_[i].z;
     if (value <= 0) continue;
-    const vec3 error = glm::sqrt(variance[i]);
+    const vec3 error = glm::sqrt(variance_[i]);
     pixels.emplace_back(value, error.x + error.y + error.z);
     light += double(value);
   }

@@ -1,4 +1,4 @@
-// A picture that gets better pass by pass, and how far from the truth it may still be.
+// The running mean of an image over passes, and its standard error.
 #pragma once
 
 #include <span>
@@ -10,31 +10,32 @@
 
 namespace nephroid {
 
-// The mean of what independent passes say of each pixel. All it knows is in floats, so that an image holds it
-// whole: put back, it goes on as if it had never stopped.
+// The mean of independent passes for each pixel, and its variance. The whole state is in floats, so that it
+// can be stored in an image and continued later with the same result.
 class RunningMean {
  public:
-  explicit RunningMean(std::size_t pixels) : mean(pixels, vec3(0)), variance(pixels, vec3(0)) {}
+  explicit RunningMean(std::size_t pixels) : mean_(pixels, vec3(0)), variance_(pixels, vec3(0)) {}
 
-  // The `passes`-th pass, counted from one.
+  // Adds a pass. `passes`: the number of passes with this one.
   void add(std::span<const vec3> pass, uint32_t passes);
 
-  // R, G and B, named `prefix` + "R" and so on.
+  // Writes the channels `prefix` + "R", "G" and "B".
   void writeMean(Image& image, const std::string& prefix) const;
-  // Of the mean, not of a pass: the square of its standard error. Without meaning before the second pass.
+  // The variance is that of the mean, not of a pass: the square of its standard error. Without meaning before
+  // the second pass.
   void writeVariance(Image& image, const std::string& prefix) const;
   void writeStandardError(Image& image, const std::string& prefix) const;
   // Throws InputError where a channel is not there.
   void readMean(const Image& image, const std::string& prefix);
   void readVariance(const Image& image, const std::string& prefix);
 
-  // The relative error where the light is: the standard errors over the values, both summed up, of the
-  // brightest pixels, as many as hold 95 % of the light. Infinite where there is none.
+  // The relative standard error: the sum of standard errors divided by the sum of values, over the brightest
+  // pixels that together hold 95 % of the light. Infinite where there is no light.
   double noise() const;
 
  private:
-  std::vector<vec3> mean;
-  std::vector<vec3> variance;
+  std::vector<vec3> mean_;
+  std::vector<vec3> variance_;
 };
 
 }  // namespace nephroid

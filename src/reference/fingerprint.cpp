@@ -11,21 +11,21 @@ class SceneHasher {
   void add(const Values&... values) {
     (addOne(values), ...);
   }
-  uint64_t value() const { return hasher.value(); }
+  uint64_t value() const { return hasher_.value(); }
 
  private:
-  void addOne(float value) { hasher.add(value); }
-  void addOne(uint32_t value) { hasher.add(value); }
+  void addOne(float value) { hasher_.add(value); }
+  void addOne(uint32_t value) { hasher_.add(value); }
   void addOne(const vec2& v) { add(v.x, v.y); }
   void addOne(const vec3& v) { add(v.x, v.y, v.z); }
   void addOne(const quat& q) { add(q.x, q.y, q.z, q.w); }
   template <class T>
   void addOne(const std::vector<T>& values) {
-    hasher.add(values.size());
-    hasher.add(std::as_bytes(std::span(values)));
+    hasher_.add(values.size());
+    hasher_.add(std::as_bytes(std::span(values)));
   }
 
-  Hasher hasher;
+  Hasher hasher_;
 };
 
 void add(SceneHasher& hasher, const Material& m) {

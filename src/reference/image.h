@@ -1,6 +1,6 @@
-// The picture of a scene, right but slow: progressive photon mapping for light that met a caster, path
-// tracing for the rest. Knaus and Zwicker 2011: passes with shrinking radii that share nothing, so that their
-// mean converges to the truth and their spread tells how far it is.
+// The reference picture of a scene: correct but slow. It uses progressive photon mapping for light that met a
+// caster, and path tracing for the rest. As in Knaus and Zwicker 2011, passes are independent and have
+// shrinking radii. So their mean converges to the correct result, and their variance gives the error.
 #pragma once
 
 #include "reference/estimate.h"
@@ -19,24 +19,24 @@ class ReferenceImage final : public Estimate {
 
   void pass() override;
   double noise() const override;
-  // nit: R,G,B the total; direct., caustics. and shafts.; variance. and caustics.variance. of the total and
-  // of the caustics; depth.Z (m along the view, 0 where there is nothing) and normal.X,Y,Z of the nearest
-  // surface.
+  // Channels in nit: R,G,B (the total), direct.R,G,B, caustics.R,G,B, shafts.R,G,B, and the variances (nit^2)
+  // of total and caustics, variance.R,G,B and caustics.variance.R,G,B. Of the nearest surface: depth.Z (m
+  // along the view, 0 where there is nothing) and normal.X,Y,Z.
   Image image() const override;
   void restore(const Image& image, uint32_t passes) override;
 
  private:
   PassLight traceLight(std::vector<Splat>& splats) const;
 
-  const Scene& scene;
-  ReferenceSettings settings;
-  Boundaries boundaries;
-  Lights lights;
-  PhotonTracer tracer;
-  Sight sight;
-  Pinhole camera;
-  MediumStack mediaOfCamera;
-  RunningMean total, direct, caustics, shafts;
+  const Scene& scene_;
+  ReferenceSettings settings_;
+  Boundaries boundaries_;
+  Lights lights_;
+  PhotonTracer tracer_;
+  Sight sight_;
+  Pinhole camera_;
+  MediumStack mediaOfCamera_;
+  RunningMean total_, direct_, caustics_, shafts_;
 };
 
 }  // namespace nephroid

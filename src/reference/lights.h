@@ -1,4 +1,4 @@
-// Where light comes from: what falls on a point, and photons on their way to the casters.
+// Samples lights: the light that falls on a point, and photons toward the casters.
 #pragma once
 
 #include <vector>
@@ -10,23 +10,23 @@
 
 namespace nephroid {
 
-// A photon where it sets out.
+// A photon at its start.
 struct EmittedPhoton {
   vec3 origin{0};     // m
   vec3 direction{0};  // unit
-  vec3 flux{0};       // lm, were it the only photon
+  vec3 flux{0};       // lm, to be divided by the number of photons
   uint32_t light = 0;
 };
 
-// Light that would fall on a point if nothing stood in the way. A sample of it where the light has an extent.
+// The light that falls on a point if nothing stands in the way. For a light with an extent, a sample of it.
 struct Illumination {
-  vec3 direction{0};    // unit, the way the light travels
+  vec3 direction{0};    // unit, in which the light travels
   float distance = 0;   // m; infinite where it comes from afar
-  vec3 illuminance{0};  // lux on a facing surface, the air between not counted
+  vec3 illuminance{0};  // lux on a facing surface, without the loss in the air
 };
 
-// casters: only toward what sends light on, so that no photon is spent on light that shadow rays measure
-// better. everywhere: all the light there is (of a directional light, all that falls on the scene).
+// Where photons are sent. casters: only toward casters, because shadow rays are better for all other light.
+// everywhere: in all directions (for a directional light: over the whole scene).
 enum class Aim { casters, everywhere };
 
 class Lights {
@@ -36,31 +36,32 @@ class Lights {
 
   uint32_t count() const;
   bool comesFromAfar(uint32_t light) const;
-  // `u` in [0, 1): where along a line or on an area, from where of a sky; without meaning for other lights.
+  // `u` in [0, 1): chooses the place on a line, an area or a sky; not used for other lights.
   Illumination illumination(uint32_t light, vec3 point, float u) const;
-  // The place light comes from, at `u`; without meaning for light from afar.
+  // The place (m) of the light at `u`; without meaning for light from afar.
   vec3 position(uint32_t light, float u) const;
 
-  // A photon: `choice` says of which light and in which direction or place, `along` from where of it; both in
-  // [0, 1). Choices spread evenly are photons spread evenly, and neighbouring ones go nearly the same way.
+  // Makes a photon from two numbers in [0, 1). `choice` selects the light and the direction, `along` the
+  // place on the light. Evenly spread choices give evenly spread photons, and neighboring choices give
+  // similar photons.
   EmittedPhoton emit(double choice, float along) const;
 
-  // No light can come to a caster.
-  bool isDark() const { return shares.empty(); }
+  // Whether no light can come to a caster.
+  bool isDark() const { return shares_.empty(); }
 
  private:
   // A ball, or the cone of a spot light (a ball of no radius).
   struct Target {
     vec3 center{0};
     float radius = 0;     // m; infinite: everywhere
-    bool isCone = false;  // the directions of the light's own cone
+    bool isCone = false;  // the target is the light's own cone of directions
   };
-  // What part of the photons goes from a light to a target.
+  // The part of the photons that goes from a light to a target.
   struct Share {
     uint32_t light = 0;
     Target target;
     double probability = 0;
-    double cumulative = 0;  // with those before it
+    double cumulative = 0;  // the sum of its probability and of those before it
   };
 
   void addShares(uint32_t light, const std::vector<Target>& targets);
@@ -68,14 +69,14 @@ class Lights {
   SkyDistribution::Sample fromAfar(uint32_t light, float u) const;
   EmittedPhoton emitFromPoint(const Share& share, vec3 origin, vec2 at) const;
 
-  const Scene& scene;
-  std::vector<ShapedLight> shapes;     // of the lights
-  std::vector<SkyDistribution> skies;  // of the lights that are one
-  std::vector<uint32_t> skyOfLight;    // of the lights, in `skies`
-  vec3 sceneCenter{0};
-  float sceneRadius = 0;  // m
-  std::vector<Share> shares;
-  std::vector<uint32_t> firstShare;  // of each light, and one past the last
+  const Scene& scene_;
+  std::vector<ShapedLight> shapes_;     // of the lights
+  std::vector<SkyDistribution> skies_;  // of the lights that are one
+  std::vector<uint32_t> skyOfLight_;    // of the lights, in `skies`
+  vec3 sceneCenter_{0};
+  float sceneRadius_ = 0;  // m
+  std::vector<Share> shares_;
+  std::vector<uint32_t> firstShare_;  // of each light, and one past the last
 };
 
 }  // namespace nephroid

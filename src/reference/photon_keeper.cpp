@@ -21,7 +21,7 @@ StoredPhoton stored(const PhotonSegment& segment, vec3 flux) {
 }  // namespace
 
 void PhotonKeeper::segment(const PhotonSegment& segment) {
-  const Boundaries& boundaries = *settings.boundaries;
+  const Boundaries& boundaries = *settings_.boundaries;
   if (!segment.metCaster || !boundaries.isScattering(segment.medium)) return;
   const float extinction = segment.isWeakened ? boundaries.meanExtinction(segment.medium) : 0;
   for (uint32_t i = 0; i < kPlaces; ++i) {
@@ -33,8 +33,8 @@ void PhotonKeeper::segment(const PhotonSegment& segment) {
     photon.direction = segment.ray.direction;
     photon.object = segment.medium;
     inVolumes.push_back(photon);
-    if (!settings.splats || segment.medium != settings.mediumOfCamera) continue;
-    const auto seen = settings.camera->project(photon.position);
+    if (!settings_.splats || segment.medium != settings_.mediumOfCamera) continue;
+    const auto seen = settings_.camera->project(photon.position);
     if (!seen) continue;
     const vec3 scattered = boundaries.scattering(segment.medium, photon.position) *
                            boundaries.phase(segment.medium, dot(photon.direction, seen->direction));
@@ -52,11 +52,11 @@ void PhotonKeeper::landing(const PhotonSegment& segment, const Hit& hit, vec3 fl
   photon.position = hit.flatPosition;
   photon.object = hit.object;
   onSurfaces.push_back(photon);
-  if (!settings.splats) return;
-  const auto seen = settings.camera->project(photon.position);
+  if (!settings_.splats) return;
+  const auto seen = settings_.camera->project(photon.position);
   const float cosine = seen ? dot(photon.direction, seen->direction) : 0;
   if (cosine <= 0) return;
-  const vec3 reflected = photon.flux * diffuseReflectance(*settings.scene, hit) * (cosine / kPi);
+  const vec3 reflected = photon.flux * diffuseReflectance(*settings_.scene, hit) * (cosine / kPi);
   splat(segment, photon.position, reflected, false, *seen);
 }
 
@@ -64,13 +64,13 @@ void PhotonKeeper::landing(const PhotonSegment& segment, const Hit& hit, vec3 fl
 void PhotonKeeper::splat(const PhotonSegment& segment, vec3 place, vec3 reflected, bool isScattered,
                          const Pinhole::Projection& seen) {
   if (reflected == vec3(0)) return;
-  const RayScene& rays = settings.boundaries->rayScene();
+  const RayScene& rays = settings_.boundaries->rayScene();
   const float margin = rays.selfIntersectionDistance();
   if (rays.occluded({place, seen.direction, isScattered ? 0 : margin, seen.distance})) return;
   vec3 luminance = reflected * (seen.perSteradian / (seen.distance * seen.distance));
   luminance *=
-      settings.boundaries->transmittance(settings.mediumOfCamera, place, seen.direction, seen.distance);
-  if (segment.isDispersed) luminance *= (*settings.bands)[segment.band].weight;
+      settings_.boundaries->transmittance(settings_.mediumOfCamera, place, seen.direction, seen.distance);
+  if (segment.isDispersed) luminance *= (*settings_.bands)[segment.band].weight;
   splats.push_back({seen.pixel, isScattered, luminance});
 }
 

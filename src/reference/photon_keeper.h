@@ -1,5 +1,5 @@
-// What becomes of the photons of a pass: those that the camera sees directly are put into the picture at
-// once, with no kernel; all are kept in maps for what is seen by way of casters.
+// Stores the photons of a pass. Photons that the camera sees directly are added to their pixel at once
+// (splatted), without a kernel. All photons are also stored in maps, for view rays that go through casters.
 #pragma once
 
 #include "reference/photon_map.h"
@@ -26,7 +26,7 @@ struct KeeperSettings {
 
 class PhotonKeeper final : public PhotonVisitor {
  public:
-  explicit PhotonKeeper(const KeeperSettings& keeperSettings) : settings(keeperSettings) {}
+  explicit PhotonKeeper(const KeeperSettings& keeperSettings) : settings_(keeperSettings) {}
   void segment(const PhotonSegment& segment) override;
   void landing(const PhotonSegment& segment, const Hit& hit, vec3 flux) override;
 
@@ -37,7 +37,7 @@ class PhotonKeeper final : public PhotonVisitor {
   void splat(const PhotonSegment& segment, vec3 place, vec3 reflected, bool isScattered,
              const Pinhole::Projection& seen);
 
-  KeeperSettings settings;
+  KeeperSettings settings_;
 };
 
 }  // namespace nephroid

@@ -48,10 +48,11 @@ PhotonPass photonPass(const Scene& scene, Spectrum spectrum, uint64_t seed, uint
 
 PhotonTracer::PhotonTracer(const Scene& scene, const Boundaries& sceneBoundaries, const Lights& sceneLights,
                            Paths followed)
-    : boundaries(sceneBoundaries), lights(sceneLights), paths(followed) {
+    : boundaries_(sceneBoundaries), lights_(sceneLights), paths_(followed) {
   for (uint32_t light = 0; light < scene.lights.size(); ++light)
-    mediaOfLights.push_back(
-        lights.comesFromAfar(light) ? MediumStack{} : boundaries.mediaAround(middleOf(scene.lights[light])));
+    mediaOfLights_.push_back(lights_.comesFromAfar(light)
+                                 ? MediumStack{}
+                                 : boundaries_.mediaAround(middleOf(scene.lights[light])));
 }
 
 // The first glass sends two photons on: what it reflects is a small part of the light over a wide field,
@@ -64,8 +65,8 @@ FluxLedger PhotonTracer::trace(const PhotonPass& pass, uint32_t first, uint32_t 
     Photon photon = emit(pass, index, random);
     ledger.emitted += glm::dvec3(photon.emitted);
     if (!fly(random, photon, visitor, ledger)) continue;
-    Choice choice = paths == Paths::transmission ? Choice::transmitted : Choice::random;
-    const Material& material = boundaries.materialOf(photon.hit);
+    Choice choice = paths_ == Paths::transmission ? Choice::transmitted : Choice::random;
+    const Material& material = boundaries_.materialOf(photon.hit);
     if (choice == Choice::random && material.type == MaterialType::dielectric) {
       Photon reflected = photon;
       if (meetCaster(pass, Choice::reflected, random, reflected, ledger))
@@ -79,20 +80,20 @@ FluxLedger PhotonTracer::trace(const PhotonPass& pass, uint32_t first, uint32_t 
 
 void PhotonTracer::follow(const PhotonPass& pass, Random& random, Photon& photon, PhotonVisitor& visitor,
                           FluxLedger& ledger) const {
-  const Choice choice = paths == Paths::transmission ? Choice::transmitted : Choice::random;
+  const Choice choice = paths_ == Paths::transmission ? Choice::transmitted : Choice::random;
   while (fly(random, photon, visitor, ledger) && meetCaster(pass, choice, random, photon, ledger)) {
   }
 }
 
 PhotonTracer::Photon PhotonTracer::emit(const PhotonPass& pass, uint32_t index, Random& random) const {
   const double choice = (double(index) + random.uniform()) / pass.photons;
-  const EmittedPhoton emitted = lights.emit(choice, random.uniform());
+  const EmittedPhoton emitted = lights_.emit(choice, random.uniform());
   Photon photon;
   photon.emitted = emitted.flux / float(pass.photons);
   photon.path.direction = emitted.direction;
-  photon.path.media = mediaOfLights[emitted.light];
+  photon.path.media = mediaOfLights_[emitted.light];
   photon.ray = {emitted.origin, emitted.direction};
-  photon.comesFromAfar = lights.comesFromAfar(emitted.light);
+  photon.comesFromAfar = lights_.comesFromAfar(emitted.light);
   if (pass.bands.size() > 1) photon.band = uint32_t(random.uniform() * float(pass.bands.size()));
   return photon;
 }
@@ -101,7 +102,7 @@ PhotonTracer::Photon PhotonTracer::emit(const PhotonPass& pass, uint32_t index, 
 bool PhotonTracer::fly(Random& random, Photon& photon, PhotonVisitor& visitor, FluxLedger& ledger) const {
   Path& path = photon.path;
   Hit& hit = photon.hit;
-  const bool isHit = boundaries.rayScene().intersect(photon.ray, hit);
+  const bool isHit = boundaries_.rayScene().intersect(photon.ray, hit);
   PhotonSegment segment;
   segment.ray = photon.ray;
   segment.length = isHit ? hit.distance : std::numeric_limits<float>::infinity();
@@ -109,12 +110,12 @@ bool PhotonTracer::fly(Random& random, Photon& photon, PhotonVisitor& visitor, F
   segment.metCaster = path.metCaster;
   segment.medium = path.media.top();
   segment.isWeakened = !photon.comesFromAfar;
-  segment.endsOnReceiver = isHit && !boundaries.isCaster(hit);
+  segment.endsOnReceiver = isHit && !boundaries_.isCaster(hit);
   segment.isDispersed = path.isDispersed;
   segment.band = photon.band;
   segment.sample = random.uniform();
   visitor.segment(segment);
-  path.throughput *= segment.transmittance(boundaries, segment.length);
+  path.throughput *= segment.transmittance(boundaries_, segment.length);
   const vec3 flux = photon.flux();
   ledger.absorbed += glm::dvec3(segment.flux) - glm::dvec3(flux);
   if (segment.endsOnReceiver && path.metCaster) visitor.landing(segment, hit, flux);
@@ -129,12 +130,13 @@ bool PhotonTracer::meetCaster(const PhotonPass& pass, Choice choice, Random& ran
                               FluxLedger& ledger) const {
   const vec3 arriving = photon.flux();
   const bool goesOn =
-      boundaries.send(photon.hit, pass.bands[photon.band], Carried::flux, choice, random, photon.path);
+      boundaries_.send(photon.hit, pass.bands[photon.band], Carried::flux, choice, random, photon.path);
   const vec3 leaving = photon.flux();
-  const bool isSplit = paths == Paths::all && choice != Choice::random;  // the other part is a photon as well
+  const bool isSplit =
+      paths_ == Paths::all && choice != Choice::random;  // the other part is a photon as well
   if (!isSplit) {
     const bool isLost =
-        paths == Paths::transmission && boundaries.materialOf(photon.hit).type == MaterialType::dielectric;
+        paths_ == Paths::transmission && boundaries_.materialOf(photon.hit).type == MaterialType::dielectric;
     (isLost ? ledger.lost : ledger.absorbed) += glm::dvec3(arriving) - glm::dvec3(leaving);
   }
   if (!goesOn && isSplit && choice == Choice::transmitted) return false;  // all of it was reflected
@@ -143,7 +145,7 @@ bool PhotonTracer::meetCaster(const PhotonPass& pass, Choice choice, Random& ran
     ledger.lost += glm::dvec3(leaving);
     return false;
   }
-  photon.ray = boundaries.rayScene().leavingTriangle(photon.hit, photon.path.direction);
+  photon.ray = boundaries_.rayScene().leavingTriangle(photon.hit, photon.path.direction);
   return true;
 }
 

@@ -1,4 +1,4 @@
-// Photons from the lights through the casters to where they end.
+// Traces photons from the lights through the casters to the point where they end.
 #pragma once
 
 #include <oneapi/tbb/parallel_for.h>
@@ -10,43 +10,43 @@
 
 namespace nephroid {
 
-// A photon on its way from one place to the next. Its flux is without the weight of its band.
+// A straight part of a photon's path. Its flux is without the weight of its band.
 struct PhotonSegment {
   Ray ray;                  // m
   float length = 0;         // m; infinite where it escapes
   vec3 flux{0};             // lm at the start
   uint32_t medium = kNone;  // the object it is in
-  bool isWeakened = true;   // by what it is in
-  bool metCaster = false;   // before; if not, it is direct light
+  bool isWeakened = true;   // the medium around it weakens it
+  bool metCaster = false;   // it met a caster before; if not, it is direct light
   bool isInAir() const { return medium == kNone; }
   bool endsOnReceiver = false;
   bool isDispersed = false;
   uint32_t band = 0;  // of the pass
-  float sample = 0;   // uniform in [0, 1), for the visitor
-  // What is left of its flux after so many m.
+  float sample = 0;   // a random number in [0, 1) for the visitor
+  // The part (0..1 per channel) of its flux that is left after `distance` (m).
   vec3 transmittance(const Boundaries& boundaries, float distance) const;
 };
 
-// Is told where photons go.
+// Is called for each part of each photon's path.
 class PhotonVisitor {
  public:
   virtual ~PhotonVisitor() = default;
   virtual void segment(const PhotonSegment&) {}
-  // The end of a segment on a diffuse surface, of a photon that met a caster; `flux` (lm) as it arrives.
+  // Called where a photon that met a caster arrives at a diffuse surface. `flux`: lm, on arrival.
   virtual void landing(const PhotonSegment&, const Hit&, vec3 flux) { static_cast<void>(flux); }
 };
 
-// What became of flux, lm per channel: emitted = received + absorbed + escaped + lost.
+// The balance of flux, in lm per channel: emitted = received + absorbed + escaped + lost.
 struct FluxLedger {
   glm::dvec3 emitted{0};
   glm::dvec3 received{0};  // by diffuse surfaces
   glm::dvec3 absorbed{0};  // in materials, in the air and by mirrors
   glm::dvec3 escaped{0};
-  glm::dvec3 lost{0};  // reflected where paths are of transmission alone; trapped
+  glm::dvec3 lost{0};  // reflected although only transmission is followed, or trapped
   FluxLedger& operator+=(const FluxLedger& other);
 };
 
-// What the photons of a pass have in common. A pass is one estimate, independent of all others.
+// The settings of a pass. Each pass is an independent estimate.
 struct PhotonPass {
   uint64_t seed;
   uint64_t index;
@@ -61,11 +61,11 @@ class PhotonTracer {
   // All must outlive this.
   PhotonTracer(const Scene& scene, const Boundaries& boundaries, const Lights& lights, Paths paths);
 
-  // Photons from `first` to before `last` of a pass.
+  // Traces the photons `first` to `last` - 1 of a pass.
   FluxLedger trace(const PhotonPass& pass, uint32_t first, uint32_t last, PhotonVisitor& visitor) const;
 
-  // No photon would meet a caster.
-  bool isDark() const { return lights.isDark(); }
+  // Whether no photon can meet a caster.
+  bool isDark() const { return lights_.isDark(); }
 
  private:
   struct Photon;
@@ -76,14 +76,14 @@ class PhotonTracer {
   void follow(const PhotonPass& pass, Random& random, Photon& photon, PhotonVisitor& visitor,
               FluxLedger& ledger) const;
 
-  const Boundaries& boundaries;
-  const Lights& lights;
-  Paths paths;
-  std::vector<MediumStack> mediaOfLights;  // around the middle of each
+  const Boundaries& boundaries_;
+  const Lights& lights_;
+  Paths paths_;
+  std::vector<MediumStack> mediaOfLights_;  // around the middle of each
 };
 
-// Traces a whole pass, each group of photons with a copy of `visitor`. The copies come back in the order of
-// the groups, so that what is put together from them does not depend on the threads.
+// Traces a whole pass; each group of photons has its own copy of `visitor`. Returns the copies in the order
+// of the groups, so that results do not depend on the threads.
 template <class Visitor>
 std::vector<Visitor> tracePass(const PhotonTracer& tracer, const PhotonPass& pass, const Visitor& visitor,
                                FluxLedger& ledger) {

@@ -1,4 +1,4 @@
-// The camera: which way a place in the picture looks, and where in the picture a place is seen.
+// A pinhole camera: the ray of a place in the picture, and the pixel of a point in the scene.
 #pragma once
 
 #include <optional>
@@ -15,25 +15,26 @@ class Pinhole {
   // `place`: pixels from the upper left corner.
   Ray rayThrough(vec2 place) const;
 
-  // What light that leaves a place counts for in the picture, if nothing is in between.
+  // Where a point appears in the picture, and with which weight. Objects in between are not considered.
   struct Projection {
     uint32_t pixel = 0;
-    vec3 direction{0};   // unit, from the place to the camera
-    float distance = 0;  // m
-    float perSteradian =
-        0;  // mean over the pixel of what has this much solid angle, seen from the camera: 1/sr
+    vec3 direction{0};       // unit, from the place to the camera
+    float distance = 0;      // m
+    float perSteradian = 0;  // 1/sr, 1 over the pixel's solid angle seen from the camera
   };
   std::optional<Projection> project(vec3 place) const;
 
-  vec3 position() const { return eye; }
-  vec3 forward() const { return frame[2]; }
-  float pixelHeight() const { return 2 * height / float(size.y); }  // m, a metre before the camera
+  vec3 position() const { return eye_; }
+  vec3 forward() const { return frame_[2]; }
+  float pixelHeight() const {
+    return 2 * height_ / float(size_.y);
+  }  // m, height of a pixel at the distance 1 m from the camera
 
  private:
-  vec3 eye;
-  mat3 frame;           // right, up, forward: unit
-  float width, height;  // m, half of the picture a metre before the camera
-  uvec2 size;           // pixels
+  vec3 eye_;
+  mat3 frame_;            // right, up, forward: unit
+  float width_, height_;  // m, half of the picture's size at the distance 1 m
+  uvec2 size_;            // pixels
 };
 
 }  // namespace nephroid

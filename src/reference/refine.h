@@ -1,4 +1,4 @@
-// Passes until it is good enough.
+// The interface of what the reference estimates, and the loop that adds passes to it.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace nephroid {
 
-// How photons come into the picture where no caster is between them and the camera: one by one with no
-// kernel, or as elsewhere, by a disc that shrinks from pass to pass.
+// How photons enter the picture where no caster is between them and the camera. splatted: each is added to
+// its pixel, without a kernel. gathered: as elsewhere, within a disk that shrinks from pass to pass.
 enum class SeenDirectly { splatted, gathered };
 
 struct ReferenceSettings {
@@ -23,8 +23,8 @@ struct ReferenceSettings {
   SeenDirectly seenDirectly = SeenDirectly::splatted;
 };
 
-// Something estimated by passes. Each depends on the settings and its own number alone, so that the result
-// does not depend on threads, nor on where it was interrupted and gone on with.
+// An image that is estimated by passes. Each pass depends only on the settings and its own number. So the
+// result does not depend on threads, or on interruptions after which it was continued.
 class Estimate {
  public:
   Estimate() = default;
@@ -33,28 +33,28 @@ class Estimate {
   virtual ~Estimate() = default;
 
   virtual void pass() = 0;
-  uint32_t passes() const { return passesDone; }
-  // Relative standard error, as RunningMean::noise: of caustics where there are any, or else of all the
-  // light.
+  uint32_t passes() const { return passesDone_; }
+  // The relative standard error (RunningMean::noise) of the caustics, or of all light where there are no
+  // caustics.
   virtual double noise() const = 0;
   virtual Image image() const = 0;
-  // Goes on from image(), made with the same scene and settings after so many passes. Throws InputError where
-  // the image does not fit.
+  // Continues from `image`, which image() returned after `passes` passes for the same scene and settings.
+  // Throws InputError where the image does not fit.
   virtual void restore(const Image& image, uint32_t passes) = 0;
 
  protected:
-  uint32_t passesDone = 0;
+  uint32_t passesDone_ = 0;
 };
 
-// Whichever comes first; 0: no reason to stop. All 0: never.
+// When to stop: at the first limit that is reached. 0: no limit. All 0: never.
 struct StopRule {
   uint32_t passes = 0;
   double seconds = 0;
   double error = 0;  // relative standard error, 0.01 for 1 %
 };
 
-// Passes until `rule` says stop or the user does; true: the rule. Shows the error so far. `keep` is called
-// now and then with what there is.
+// Adds passes until `rule` is met or the user interrupts. Returns true where the rule was met. Shows the
+// present error as progress. `keep` is called from time to time, to store the present state.
 bool refine(Estimate& estimate, const StopRule& rule, Progress& progress,
             const std::function<void()>& keep = {});
 

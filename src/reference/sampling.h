@@ -1,4 +1,4 @@
-// Points and directions, uniformly distributed, from numbers in [0, 1).
+// Makes points, directions and distances from random numbers in [0, 1).
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace nephroid {
 
 inline constexpr float kPi = 3.14159265358979f;
 
-// Two unit vectors that stand on `axis` and on each other (Duff et al. 2017).
+// A frame of three orthogonal unit vectors, of which `axis` is the third (Duff et al. 2017).
 inline mat3 frameAround(vec3 axis) {
   const float sign = std::copysign(1.0f, axis.z);
   const float a = -1 / (sign + axis.z);
@@ -20,8 +20,8 @@ inline mat3 frameAround(vec3 axis) {
           vec3(b, sign + axis.y * axis.y * a, -axis.y), axis};
 }
 
-// Uniform in the unit disc; neighbours stay neighbours (Shirley and Chiu 1997).
-inline vec2 sampleDisc(vec2 u) {
+// A uniform point in the unit disk. Neighboring numbers give neighboring points (Shirley and Chiu 1997).
+inline vec2 sampleDisk(vec2 u) {
   const vec2 p = 2.0f * u - 1.0f;
   if (p.x == 0 && p.y == 0) return vec2(0);
   if (std::abs(p.x) > std::abs(p.y)) {
@@ -32,21 +32,21 @@ inline vec2 sampleDisc(vec2 u) {
   return p.y * vec2(std::cos(turn), std::sin(turn));
 }
 
-// Uniform in the directions within a cone about +z, of which `width` is 1 - cosine of its half angle: 2 for
-// all. Neighbours stay neighbours (Lambert's azimuthal map of the disc).
+// A uniform direction within a cone about +z. `width`: 1 - cosine of its half angle; 2 for all directions.
+// Neighboring numbers give neighboring directions (Lambert's azimuthal map of the disk).
 inline vec3 sampleCone(vec2 u, float width) {
-  const vec2 p = sampleDisc(u);
+  const vec2 p = sampleDisk(u);
   const float drop = width * dot(p, p);  // 1 - cosine
   return {p * std::sqrt(std::max(width * (2 - drop), 0.0f)), 1 - drop};
 }
 
-// Per steradian.
+// The density (1/sr) of the directions of sampleCone.
 inline float coneDensity(float width) {
   return 1 / (2 * kPi * width);
 }
 
-// A distance along a ray of `length` (may be infinite), with a density that falls as light does in air of
-// this extinction (1/m); uniform where there is none.
+// A distance along a ray of `length` (m, may be infinite). Its density falls like light in air with this
+// extinction (1/m); it is uniform where the extinction is 0.
 struct DistanceSample {
   float distance = 0;  // m
   float density = 0;   // 1/m
@@ -56,15 +56,15 @@ inline DistanceSample sampleExtinction(float u, float extinction, float length) 
   const float depth = extinction * length;
   if (depth < 1e-4f) return {u * length, 1 / length};
   const float scattered = -std::expm1(-depth);
-  // A `u` put together from parts may round to 1, which would be infinitely far.
+  // `u` may be rounded to 1, which would give an infinite distance.
   const float part = std::min(u, 1 - 0x1p-24f);
   const float distance = std::min(-std::log1p(-part * scattered) / extinction, length);
   return {distance, extinction * std::exp(-extinction * distance) / scattered};
 }
 
-// A distance along a ray with a density as the inverse square of that to `point` (Kulla and Fajardo 2012). By
-// the angle seen from there, counted from the ray's origin: a difference of two angles would have no digits
-// left where the ray ends before a point that is nearly on its line.
+// A distance along a ray whose density is proportional to the inverse square of the distance to `point`
+// (Kulla and Fajardo 2012). It uses the angle seen from `point`, counted from the ray's origin. A difference
+// of two angles would not be precise where the ray ends before a point that is nearly on its line.
 inline DistanceSample sampleEquiangular(float u, vec3 origin, vec3 direction, float length, vec3 point) {
   const float nearest = dot(point - origin, direction);  // m along the ray
   const float height = std::max(glm::length(point - origin - nearest * direction), 1e-6f);
@@ -78,7 +78,8 @@ inline DistanceSample sampleEquiangular(float u, vec3 origin, vec3 direction, fl
   return {distance, height / (span * (height * height + beyond * beyond))};
 }
 
-// Random numbers of one item of a pass: the same whichever thread asks, and unlike those of its neighbours.
+// The random numbers of one item of a pass. They are the same in any thread, and independent of those of
+// other items.
 inline Random randomOf(uint64_t seed, uint64_t pass, uint64_t item) {
   uint64_t mixed = 0;
   for (const uint64_t word : {seed, pass, item}) {  // splitmix64 (Steele et al. 2014)
@@ -90,9 +91,8 @@ inline Random randomOf(uint64_t seed, uint64_t pass, uint64_t item) {
   return Random(mixed, item);
 }
 
-// Where in the unit square a curve through all of it (Morton 1966) is at `u` in [0, 1). Parts of the curve
-// are compact parts of the square: numbers spread evenly give points spread evenly, and neighbours are near
-// each other.
+// The point at `u` in [0, 1) of a curve that fills the unit square (Morton 1966). Evenly spread numbers give
+// evenly spread points, and neighboring numbers give points near each other.
 inline vec2 pointOnCurve(double u) {
   const auto everyOtherBit = [](uint64_t x) {
     x &= 0x5555555555555555ULL;

@@ -20,44 +20,44 @@ class SensorVisitor final : public PhotonVisitor {
 
   SensorVisitor(const Sensor& meter, const std::vector<Band>& bandsOfPass,
                 const Boundaries& boundariesOfScene, float tolerance)
-      : boundaries(&boundariesOfScene),
-        corner(meter.corner),
-        normal(cross(glm::dvec3(meter.v), glm::dvec3(meter.u))),
-        resolution(meter.resolution),
-        bands(&bandsOfPass),
-        margin(tolerance) {
+      : boundaries_(&boundariesOfScene),
+        corner_(meter.corner),
+        normal_(cross(glm::dvec3(meter.v), glm::dvec3(meter.u))),
+        resolution_(meter.resolution),
+        bands_(&bandsOfPass),
+        margin_(tolerance) {
     // u and v need not be perpendicular: the part of one along the other is taken off.
     const glm::dvec3 u(meter.u), v(meter.v);
-    across = cross(v, normal) / dot(u, cross(v, normal));
-    along = cross(normal, u) / dot(v, cross(normal, u));
+    across_ = cross(v, normal_) / dot(u, cross(v, normal_));
+    along_ = cross(normal_, u) / dot(v, cross(normal_, u));
   }
 
   void segment(const PhotonSegment& segment) override {
     if (!segment.metCaster) return;
     const glm::dvec3 origin(segment.ray.origin), direction(segment.ray.direction);
-    const double approach = dot(direction, normal);
+    const double approach = dot(direction, normal_);
     if (approach >= 0) return;
-    const double distance = dot(corner - origin, normal) / approach;  // m
+    const double distance = dot(corner_ - origin, normal_) / approach;  // m
     // A meter that lies on a receiver is before it, whatever the rounding.
-    if (distance < 0 || distance > double(segment.length) + (segment.endsOnReceiver ? margin : 0.0)) return;
-    const glm::dvec3 place = origin + distance * direction - corner;
-    const double column = dot(place, across) * resolution.x;
-    const double row = dot(place, along) * resolution.y;
-    if (!(column >= 0 && column < resolution.x && row >= 0 && row < resolution.y)) return;
+    if (distance < 0 || distance > double(segment.length) + (segment.endsOnReceiver ? margin_ : 0.0)) return;
+    const glm::dvec3 place = origin + distance * direction - corner_;
+    const double column = dot(place, across_) * resolution_.x;
+    const double row = dot(place, along_) * resolution_.y;
+    if (!(column >= 0 && column < resolution_.x && row >= 0 && row < resolution_.y)) return;
     vec3 flux = segment.flux;
-    if (segment.isDispersed) flux *= (*bands)[segment.band].weight;
-    flux *= segment.transmittance(*boundaries, float(distance));
-    counts.push_back({uint32_t(row) * resolution.x + uint32_t(column), flux});
+    if (segment.isDispersed) flux *= (*bands_)[segment.band].weight;
+    flux *= segment.transmittance(*boundaries_, float(distance));
+    counts.push_back({uint32_t(row) * resolution_.x + uint32_t(column), flux});
   }
 
   std::vector<Count> counts;
 
  private:
-  const Boundaries* boundaries;
-  glm::dvec3 corner, normal, across, along;
-  uvec2 resolution;
-  const std::vector<Band>* bands;
-  double margin;  // m
+  const Boundaries* boundaries_;
+  glm::dvec3 corner_, normal_, across_, along_;
+  uvec2 resolution_;
+  const std::vector<Band>* bands_;
+  double margin_;  // m
 };
 
 float toleranceOf(const RayScene& rays) {
@@ -68,20 +68,20 @@ float toleranceOf(const RayScene& rays) {
 
 ReferenceSensor::ReferenceSensor(const Scene& sceneToMeasure, const RayScene& rays, const Sensor& meter,
                                  const ReferenceSettings& referenceSettings)
-    : scene(sceneToMeasure),
-      sensor(meter),
-      settings(referenceSettings),
-      boundaries(scene, rays),
-      lights(scene, Aim::casters),
-      tracer(scene, boundaries, lights, settings.paths),
-      medium(
-          boundaries
-              .mediaAround(sensor.corner + 0.5f * (sensor.u + sensor.v) + toleranceOf(rays) * sensor.normal())
-              .top()),
-      total(std::size_t(sensor.resolution.x) * sensor.resolution.y),
-      direct(total),
-      caustics(total) {
-  checkSensor(sensor);
+    : scene_(sceneToMeasure),
+      sensor_(meter),
+      settings_(referenceSettings),
+      boundaries_(scene_, rays),
+      lights_(scene_, Aim::casters),
+      tracer_(scene_, boundaries_, lights_, settings_.paths),
+      medium_(boundaries_
+                  .mediaAround(sensor_.corner + 0.5f * (sensor_.u + sensor_.v) +
+                               toleranceOf(rays) * sensor_.normal())
+                  .top()),
+      total_(std::size_t(sensor_.resolution.x) * sensor_.resolution.y),
+      direct_(total_),
+      caustics_(total_) {
+  checkSensor(sensor_);
 }
 
 void ReferenceSensor::pass() {
@@ -89,33 +89,36 @@ void ReferenceSensor::pass() {
   const std::vector<vec3> straight = measureDirect();
   std::vector<vec3> all(fromCasters.size());
   for (std::size_t i = 0; i < all.size(); ++i)
-    all[i] = fromCasters[i] + straight[i] + scene.environment.ambient;
-  ++passesDone;
-  total.add(all, passesDone);
-  direct.add(straight, passesDone);
-  caustics.add(fromCasters, passesDone);
+    all[i] = fromCasters[i] + straight[i] + scene_.environment.ambient;
+  ++passesDone_;
+  total_.add(all, passesDone_);
+  direct_.add(straight, passesDone_);
+  caustics_.add(fromCasters, passesDone_);
 }
 
 std::vector<vec3> ReferenceSensor::countPhotons() {
-  const PhotonPass pass = photonPass(scene, settings.spectrum, settings.seed, passesDone, settings.photons);
-  const std::vector<SensorVisitor> groups = tracePass(
-      tracer, pass, SensorVisitor(sensor, pass.bands, boundaries, toleranceOf(boundaries.rayScene())), flux);
-  ++passesTraced;
-  std::vector<glm::dvec3> lumens(std::size_t(sensor.resolution.x) * sensor.resolution.y, glm::dvec3(0));
+  const PhotonPass pass =
+      photonPass(scene_, settings_.spectrum, settings_.seed, passesDone_, settings_.photons);
+  const std::vector<SensorVisitor> groups =
+      tracePass(tracer_, pass,
+                SensorVisitor(sensor_, pass.bands, boundaries_, toleranceOf(boundaries_.rayScene())), flux_);
+  ++passesTraced_;
+  std::vector<glm::dvec3> lumens(std::size_t(sensor_.resolution.x) * sensor_.resolution.y, glm::dvec3(0));
   for (const SensorVisitor& group : groups)
     for (const SensorVisitor::Count& count : group.counts) lumens[count.texel] += glm::dvec3(count.flux);
-  const double texelArea = length(cross(glm::dvec3(sensor.v), glm::dvec3(sensor.u))) / double(lumens.size());
+  const double texelArea =
+      length(cross(glm::dvec3(sensor_.v), glm::dvec3(sensor_.u))) / double(lumens.size());
   std::vector<vec3> lux(lumens.size());
   for (std::size_t i = 0; i < lux.size(); ++i) lux[i] = vec3(lumens[i] / texelArea);
   return lux;
 }
 
 std::vector<vec3> ReferenceSensor::measureDirect() const {
-  std::vector<vec3> lux(std::size_t(sensor.resolution.x) * sensor.resolution.y);
-  oneapi::tbb::parallel_for(0u, sensor.resolution.y, [&](uint32_t row) {
-    for (uint32_t column = 0; column < sensor.resolution.x; ++column) {
-      const std::size_t texel = std::size_t(row) * sensor.resolution.x + column;
-      Random random = randomOf(~settings.seed, passesDone, texel);
+  std::vector<vec3> lux(std::size_t(sensor_.resolution.x) * sensor_.resolution.y);
+  oneapi::tbb::parallel_for(0u, sensor_.resolution.y, [&](uint32_t row) {
+    for (uint32_t column = 0; column < sensor_.resolution.x; ++column) {
+      const std::size_t texel = std::size_t(row) * sensor_.resolution.x + column;
+      Random random = randomOf(~settings_.seed, passesDone_, texel);
       lux[texel] = directAt({column, row}, random);
     }
   });
@@ -128,53 +131,53 @@ vec3 ReferenceSensor::directAt(uvec2 texel, Random& random) const {
   for (uint32_t i = 0; i < kShadowGrid * kShadowGrid; ++i) {
     const vec2 within =
         vec2(float(i % kShadowGrid) + random.uniform(), float(i / kShadowGrid) + random.uniform());
-    const vec2 place = (vec2(texel) + within / float(kShadowGrid)) / vec2(sensor.resolution);
+    const vec2 place = (vec2(texel) + within / float(kShadowGrid)) / vec2(sensor_.resolution);
     LitPoint point;
-    point.position = sensor.corner + sensor.u * place.x + sensor.v * place.y;
-    point.normal = point.geometricNormal = sensor.normal();
-    point.medium = medium;
-    point.clearance = toleranceOf(boundaries.rayScene());
-    for (uint32_t light = 0; light < lights.count(); ++light)
-      sum += directIlluminance(boundaries, lights, light, point, random);
+    point.position = sensor_.corner + sensor_.u * place.x + sensor_.v * place.y;
+    point.normal = point.geometricNormal = sensor_.normal();
+    point.medium = medium_;
+    point.clearance = toleranceOf(boundaries_.rayScene());
+    for (uint32_t light = 0; light < lights_.count(); ++light)
+      sum += directIlluminance(boundaries_, lights_, light, point, random);
   }
   return sum / float(kShadowGrid * kShadowGrid);
 }
 
 double ReferenceSensor::noise() const {
-  const double ofCaustics = caustics.noise();
-  return std::isfinite(ofCaustics) ? ofCaustics : total.noise();
+  const double ofCaustics = caustics_.noise();
+  return std::isfinite(ofCaustics) ? ofCaustics : total_.noise();
 }
 
 Image ReferenceSensor::image() const {
   Image image;
-  image.width = sensor.resolution.x;
-  image.height = sensor.resolution.y;
-  total.writeMean(image, "");
-  direct.writeMean(image, "direct.");
-  caustics.writeMean(image, "caustics.");
+  image.width = sensor_.resolution.x;
+  image.height = sensor_.resolution.y;
+  total_.writeMean(image, "");
+  direct_.writeMean(image, "direct.");
+  caustics_.writeMean(image, "caustics.");
   for (int c = 0; c < 3; ++c)
     for (float& value : image.channel(std::string("ambient.") + "RGB"[c]))
-      value = scene.environment.ambient[c];
-  total.writeVariance(image, "variance.");
-  total.writeStandardError(image, "standard_error.");
-  caustics.writeVariance(image, "caustics.variance.");
-  caustics.writeStandardError(image, "caustics.standard_error.");
+      value = scene_.environment.ambient[c];
+  total_.writeVariance(image, "variance.");
+  total_.writeStandardError(image, "standard_error.");
+  caustics_.writeVariance(image, "caustics.variance.");
+  caustics_.writeStandardError(image, "caustics.standard_error.");
   return image;
 }
 
 void ReferenceSensor::restore(const Image& image, uint32_t passes) {
-  total.readMean(image, "");
-  direct.readMean(image, "direct.");
-  caustics.readMean(image, "caustics.");
-  total.readVariance(image, "variance.");
-  caustics.readVariance(image, "caustics.variance.");
-  passesDone = passes;
+  total_.readMean(image, "");
+  direct_.readMean(image, "direct.");
+  caustics_.readMean(image, "caustics.");
+  total_.readVariance(image, "variance.");
+  caustics_.readVariance(image, "caustics.variance.");
+  passesDone_ = passes;
 }
 
 FluxLedger ReferenceSensor::ledger() const {
-  FluxLedger mean = flux;
+  FluxLedger mean = flux_;
   for (glm::dvec3* part : {&mean.emitted, &mean.received, &mean.absorbed, &mean.escaped, &mean.lost})
-    *part /= std::max(passesTraced, 1u);
+    *part /= std::max(passesTraced_, 1u);
   return mean;
 }
 

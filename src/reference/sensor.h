@@ -1,4 +1,4 @@
-// Photons counted on an illuminance meter: no kernel, no bias.
+// The reference for a sensor: photons are counted on its texels, without a kernel and without bias.
 #pragma once
 
 #include "reference/estimate.h"
@@ -15,12 +15,13 @@ class ReferenceSensor final : public Estimate {
 
   void pass() override;
   double noise() const override;
-  // lux: R,G,B the total; direct., caustics. and ambient.; variance., caustics.variance., standard_error. and
-  // caustics.standard_error. of the total and of the caustics.
+  // Channels in lux: R,G,B (the total), direct.R,G,B, caustics.R,G,B and ambient.R,G,B. Of the total and of
+  // the caustics also variance. (lux^2) and standard_error. (lux), each with R,G,B; those of the caustics
+  // begin with caustics.
   Image image() const override;
   void restore(const Image& image, uint32_t passes) override;
 
-  // Of all photons traced by this so far, divided by the number of passes.
+  // The balance of all photons that this object has traced, divided by the number of passes.
   FluxLedger ledger() const;
 
  private:
@@ -28,16 +29,16 @@ class ReferenceSensor final : public Estimate {
   std::vector<vec3> measureDirect() const;
   vec3 directAt(uvec2 texel, Random& random) const;
 
-  const Scene& scene;
-  const Sensor& sensor;
-  ReferenceSettings settings;
-  Boundaries boundaries;
-  Lights lights;
-  PhotonTracer tracer;
-  uint32_t medium;  // the object the sensor is inside of
-  RunningMean total, direct, caustics;
-  FluxLedger flux;
-  uint32_t passesTraced = 0;
+  const Scene& scene_;
+  const Sensor& sensor_;
+  ReferenceSettings settings_;
+  Boundaries boundaries_;
+  Lights lights_;
+  PhotonTracer tracer_;
+  uint32_t medium_;  // the object the sensor is inside of
+  RunningMean total_, direct_, caustics_;
+  FluxLedger flux_;
+  uint32_t passesTraced_ = 0;
 };
 
 }  // namespace nephroid

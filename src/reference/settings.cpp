@@ -17,15 +17,16 @@ std::span<const Setting> referenceSettings() {
       wholeSetting<&Choices::passes>(
           "passes", 1, 1e9, "Stop the reference after so many passes; 64 where no reason to stop is given"),
       realSetting<&Choices::seconds>("seconds", 0.001, 1e9, "Stop it after so many seconds"),
-      fractionSetting<&Choices::error>("error", std::numeric_limits<double>::infinity(),
-                                       "Stop it when the standard error of the caustics, over their value "
-                                       "where they are, is this: 0.01 or 1%"),
-      wholeSetting<&Choices::seed>("seed", 0, kLargestWhole, "Where its random numbers begin"),
+      fractionSetting<&Choices::error>(
+          "error", std::numeric_limits<double>::infinity(),
+          "Stop it when the relative standard error of the caustics is this small: 0.01 or 1%"),
+      wholeSetting<&Choices::seed>("seed", 0, kLargestWhole, "The seed of its random numbers"),
       wholeSetting<&Choices::photons>("photons", 1, kMostPhotons, "Photons that it traces in a pass"),
       choiceSetting<&Choices::spectrum>(
           "spectrum",
-          "Dispersion in the reference: red, green and blue with an index each, or wavelengths; automatic: "
-          "channels with --paths transmission, as the techniques, and otherwise continuous"),
+          "Dispersion in the reference. channels: red, green and blue, each with its own index of "
+          "refraction; continuous: wavelengths; automatic: channels with --paths transmission, as in the "
+          "techniques, and otherwise continuous"),
   };
   return kSettings;
 }

@@ -1,4 +1,4 @@
-// What a user may choose about the reference.
+// The settings of the reference that a user may choose.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace nephroid {
 
-// automatic: channels with refraction alone, as the papers' model has it; otherwise continuous.
+// automatic: channels where only refraction is followed, as in the papers; otherwise continuous.
 enum class SpectrumChoice { automatic, channels, continuous };
 
 inline constexpr std::array<const char*, 3> kSpectrumChoiceNames{"automatic", "channels", "continuous"};
@@ -17,9 +17,9 @@ constexpr const auto& namesOf(SpectrumChoice) {
 }
 
 struct ReferenceChoices {
-  uint32_t passes = 0;  // to stop after; 0: not a reason to stop
-  double seconds = 0;   // likewise
-  double error = 0;     // likewise: relative standard error of the caustics
+  uint32_t passes = 0;  // stop after this many; 0: no limit
+  double seconds = 0;   // stop after this time (s); 0: no limit
+  double error = 0;     // stop at this relative standard error of the caustics; 0: no limit
   uint64_t seed = 1;
   uint32_t photons = 1u << 20;  // of a pass
   SpectrumChoice spectrum = SpectrumChoice::automatic;
@@ -27,10 +27,10 @@ struct ReferenceChoices {
 
 std::span<const Setting> referenceSettings();
 
-// For an image, or a sensor, of `size`.
+// The settings for an image or a sensor of `size` (pixels or texels).
 ReferenceSettings referenceSettingsOf(const ReferenceChoices& choices, Paths paths, uvec2 size);
 
-// After 64 passes where no reason to stop is chosen.
+// The stop rule of these choices; 64 passes where no limit is chosen.
 StopRule stopRuleOf(const ReferenceChoices& choices);
 
 }  // namespace nephroid

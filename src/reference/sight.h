@@ -1,4 +1,4 @@
-// What is seen along a line of sight, through and in casters, and in what it goes through on the way.
+// Follows view rays through and into casters, and computes the luminance that they see.
 #pragma once
 
 #include "reference/direct.h"
@@ -7,8 +7,8 @@
 
 namespace nephroid {
 
-// nit, by where the light had been: direct met no caster, caustics at least one, shafts was scattered in the
-// air or in a caster's volume; rest is the background, what shines by itself and what is reflected of ambient
+// Luminance (nit), divided by the path of the light. direct: met no caster. caustics: met a caster. shafts:
+// was scattered in the air or inside a caster. rest: background, emission of surfaces, and reflected ambient
 // light.
 struct Seen {
   vec3 direct{0};
@@ -22,10 +22,10 @@ struct PassLight {
   std::vector<Band> bands;
   PhotonMap onSurfaces;
   PhotonMap inVolumes;
-  float surfaceRadius = 0;  // part of the distance travelled, around a place that is seen
+  float surfaceRadius = 0;  // radius of the search, per m that the view ray has traveled
   float volumeRadius = 0;
   float largestRadius = 0;  // m
-  bool isSplatted = false;  // where it is seen directly, and is not to be gathered there
+  bool isSplatted = false;  // light that is seen directly was splatted, so it must not be gathered again
 };
 
 class Sight {
@@ -33,15 +33,15 @@ class Sight {
   // All must outlive this.
   Sight(const Scene& scene, const Boundaries& boundaries, const Lights& lights);
 
-  // Along a ray from `media`; a sample of it.
+  // A sample of the luminance along a ray that begins inside `media`.
   Seen look(const Ray& ray, const MediumStack& media, const PassLight& light, Random& random) const;
 
  private:
-  // A line of sight on its way.
+  // The state of a view ray.
   struct View {
     Path path;
     Ray ray;
-    float travelled = 0;  // m before the ray's origin
+    float traveled = 0;  // m before the ray's origin
     uint32_t band = 0;
     vec3 weight(const PassLight& light) const;
   };
@@ -53,12 +53,12 @@ class Sight {
   vec3 scatteredFromLight(const View& view, float length, uint32_t source, Random& random) const;
   vec3 scatteredFromCasters(const View& view, float length, const PassLight& light, Random& random) const;
 
-  const Scene& scene;
-  const Boundaries& boundaries;
-  const Lights& lights;
+  const Scene& scene_;
+  const Boundaries& boundaries_;
+  const Lights& lights_;
 };
 
-// Reflectance of a diffuse surface where it was hit, its texture included.
+// The reflectance of a diffuse surface at a hit, with its texture.
 vec3 diffuseReflectance(const Scene& scene, const Hit& hit);
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// Directions by how bright a sky is there.
+// Samples the directions of a sky by their brightness.
 #pragma once
 
 #include <vector>
@@ -13,19 +13,20 @@ class SkyDistribution {
   SkyDistribution(const SkyMap& sky, float rotation);
 
   struct Sample {
-    vec3 direction{0};  // unit, the way the light travels
-    vec3 weight{0};  // nit over the density of such directions (1/sr): lux on a facing surface, in the mean
+    vec3 direction{0};  // unit, in which the light travels
+    vec3 weight{0};  // luminance (nit) divided by the density of directions (1/sr): lux on a facing surface,
+                     // in the mean
   };
   // `u` in [0, 1).
   Sample sample(float u) const;
 
-  vec3 illuminance() const { return sum; }  // lux, were all of it on one facing surface
+  vec3 illuminance() const { return sum_; }  // lux, the sum for surfaces that face each part
 
  private:
-  const SkyMap& sky;
-  mat3 turned;
-  vec3 sum{0};
-  std::vector<double> cumulative;  // part of the brightness in a cell and those before it
+  const SkyMap& sky_;
+  mat3 turned_;
+  vec3 sum_{0};
+  std::vector<double> cumulative_;  // the part of the brightness in this cell and all cells before it
 };
 
 }  // namespace nephroid

@@ -7,7 +7,7 @@
 namespace nephroid {
 namespace {
 
-constexpr uint32_t kSteps = 350;  // of the table, each a nanometre
+constexpr uint32_t kSteps = 350;  // of the table, each a nanometer
 static_assert(kShortestWavelength + kSteps == kLongestWavelength);
 constexpr uint32_t kBandsOfPass = 16;
 
@@ -34,7 +34,7 @@ vec3 rec709(vec3 xyz) {
           dot(vec3(0.0556434f, -0.2040259f, 1.0572252f), xyz)};
 }
 
-// Each channel's share of white light by wavelength, constant over each nanometre.
+// Each channel's share of white light by wavelength, constant over each nanometer.
 struct Table {
   std::array<vec3, kSteps> shares{};            // 1/nm; each channel sums to 1
   std::array<double, kSteps + 1> cumulative{};  // of the mean of the channels

@@ -1,4 +1,4 @@
-// Colour and wavelength: what a band of the spectrum is in linear Rec. 709, and how it is refracted.
+// Bands of the spectrum: their color in linear Rec. 709, and their index of refraction.
 #pragma once
 
 #include <cstdint>
@@ -9,38 +9,37 @@
 
 namespace nephroid {
 
-// How light is split where a material disperses it. channels: red, green and blue, each with its own index,
-// as the techniques have it. continuous: wavelengths.
+// How dispersed light is divided. channels: red, green and blue, each with its own index of refraction, as in
+// the techniques. continuous: wavelengths.
 enum class Spectrum { channels, continuous };
 
-// A part of white light. Of the bands of one set each is as likely as the others, and the mean of their
-// weights is white.
+// A part of white light. All bands of a set are equally likely, and the mean of their weights is white.
 struct Band {
   float wavelength = 0;  // nm; 0 for a channel
   uint32_t channel = 1;
-  vec3 weight{1};  // linear Rec. 709, to multiply light that was dispersed with
+  vec3 weight{1};  // linear Rec. 709; multiplies light that was dispersed
 };
 
-// Wavelengths that are looked at.
+// The range of wavelengths.
 inline constexpr float kShortestWavelength = 380;  // nm
 inline constexpr float kLongestWavelength = 730;   // nm
 
-// Density (1/nm) with which bands are chosen, and the weight of a band at a wavelength (nm). Colour matching
-// after Wyman, Sloan and Shirley 2013, in Rec. 709 with what lies outside it cut off, so that no light is
-// negative; equal energy is white.
+// The density (1/nm) with which wavelengths (nm) are chosen, and the weight of a band at a wavelength. The
+// color matching functions are those of Wyman, Sloan and Shirley 2013, in Rec. 709. Colors outside Rec. 709
+// are cut off, so that no light is negative. A spectrum of equal energy is white.
 float wavelengthDensity(float wavelength);
 vec3 wavelengthWeight(float wavelength);
 
-// A wavelength (nm) with that density, by inversion; `u` in [0, 1).
+// Chooses a wavelength (nm) with that density. `u` in [0, 1).
 float sampleWavelength(float u);
 
-// The bands that a pass is traced in: the three channels, or wavelengths, one from each part of equal
-// probability; one white band where the scene disperses nothing.
+// The bands of a pass: the three channels, or several wavelengths, one from each part of equal probability.
+// Only one white band where nothing in the scene disperses light.
 std::vector<Band> chooseBands(const Scene& scene, Spectrum spectrum, Random& random);
 
-// The index of refraction of a dielectric in a band. Where a material has an Abbe number: Cauchy's formula
-// through its d line; else the three indices stand at 611, 549 and 464 nm, the dominant wavelengths of Rec.
-// 709's primaries, and the index is linear in 1 / wavelength^2 between and beyond them.
+// The index of refraction of a dielectric in a band. For a material with an Abbe number it follows Cauchy's
+// formula. Otherwise the three indices belong to 611, 549 and 464 nm, the dominant wavelengths of Rec. 709's
+// primaries, and the index is linear in 1 / wavelength^2 between and beyond them.
 float indexOfRefraction(const Material& material, const Band& band);
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// Light that met no caster: what of each emitter's light reaches receivers past all that stands in its way.
+// Direct light, which met no caster: the light of each emitter on receivers, with shadow maps.
 #pragma once
 
 #include <array>
@@ -17,21 +17,22 @@
 
 namespace nephroid {
 
-// The air that light goes through on its way.
+// The air between lights and receivers.
 struct LightsInAir {
   uint64_t lights = 0;                 // address of an AirLight for each light; 0: there is no air
   const gpu::Image* depths = nullptr;  // of DensityBox
   bool hasBox = false;
 };
 
-// One frame is update, recordShadowMaps, then record for each view. A moved camera changes only what record
-// does.
+// For each frame: call update, recordShadowMaps, then record for each view. Where only the camera has moved,
+// record is enough.
 class DirectLight {
  public:
-  // The device outlives it. `scene` gives the profiles of lights. `shadowMapSize` is that of planShadowMaps.
+  // The device must outlive it. The profiles of lights are taken from `scene`. `shadowMapSize`: texels along
+  // a side, as in planShadowMaps.
   DirectLight(gpu::Device& device, const Scene& scene, uint32_t shadowMapSize);
 
-  // What a pipeline is made for. A light's points have no shadow map, one, or six.
+  // The properties for which a pipeline is made. Each point of a light has 0, 1 or 6 shadow maps.
   struct ProgramKey {
     uint32_t type = kEmitterPoint;
     uint32_t mapCount = 0;
@@ -51,25 +52,26 @@ class DirectLight {
 
   void resize(uint32_t shadowMapSize) { shadowMapSize_ = shadowMapSize; }
 
-  // What the host does in a frame. `extents` are those of scene.meshes. Nothing is in use by the device.
+  // The host's work for a frame. `extents`: of scene.meshes. The device must not be using anything of this
+  // object.
   void update(const Scene& scene, const std::vector<MeshExtent>& extents, const LightsInAir& air);
 
   void recordShadowMaps(gpu::CommandList& commands, const GpuScene& gpuScene);
 
-  // Illuminance (lux) on each receiver point of the region asked for, in place of what stood there. `lux` is
-  // rgba32f and of the size of the points. May be called several times a frame.
+  // Writes the illuminance (lux) on each receiver point of the region to `lux` (rgba32f, of the same size as
+  // the points' images). May be called several times in a frame.
   void record(gpu::CommandList& commands, const GpuScene& gpuScene, const ReceiverPoints& points,
               const gpu::Image& lux);
 
-  // Of this frame, for other passes that ask what of a light arrives: what light.glsl.h reads.
+  // Data of this frame for other passes that use light.glsl.h.
   uint32_t lightCount() const { return static_cast<uint32_t>(lights_.size()); }
   const ProgramKey& key(uint32_t light) const { return lights_[light].key; }
   DirectConstants constants(uint32_t light) const;
-  std::vector<const gpu::Image*> shadowMaps() const;  // of lights that anything may shadow
+  std::vector<const gpu::Image*> shadowMaps() const;  // of the lights for which anything can cast a shadow
   std::array<gpu::Binding, 3> bindings(uint32_t light, const GpuScene& gpuScene) const;
 
  private:
-  // A light as the passes of this frame draw it.
+  // A light in this frame's passes.
   struct DrawnLight {
     ShadowedLight shadowed;
     ProgramKey key;
@@ -82,7 +84,7 @@ class DirectLight {
   gpu::Device& device_;
   uint32_t shadowMapSize_;
   gpu::Program shadowProgram_;
-  // For closed objects about which the light is not: their far sides shade nothing more.
+  // For closed objects with the light outside: their far sides cast no further shadow.
   gpu::Program closedShadowProgram_;
   std::map<ProgramKey, gpu::Program> programs_;
   gpu::Sampler sampler_;

@@ -1,4 +1,4 @@
-// The frame: from a scene as it stands to luminance and a picture.
+// Draws frames: from a scene to luminance and a picture.
 #pragma once
 
 #include "core/image.h"
@@ -25,31 +25,33 @@ struct Surface {
 
 class Renderer {
  public:
-  // Device, transport and technique outlive it; the technique was made with that transport. Objects, meshes
-  // and textures are those of the transport's scene; what moves is taken at each `render`.
+  // Device, transport and technique must outlive it, and the technique was made with this transport. Objects,
+  // meshes and textures are taken from the transport's scene, everything that moves from the scene of each
+  // `render`.
   Renderer(gpu::Device& device, SceneTransport& transport, const RenderSettings& settings,
            Technique& technique);
 
-  // Pictures are of another size from now on.
+  // Sets another size (pixels) for the following pictures.
   void resize(uvec2 size);
   uvec2 size() const { return settings_.size; }
 
-  // A whole frame. What the camera sees is kept from the last one while it and all objects stand still.
-  // Returns the time in each pass, on the host and on the device, in the order in which they ran.
+  // Draws a whole frame. The surfaces that the camera sees are kept from the last frame where the camera and
+  // all objects have not moved. Returns the times of the passes, on the host and on the device, in the order
+  // in which they ran.
   std::vector<PassTime> render(const Scene& scene);
 
-  // Of the last frame: exposed, tone-mapped, sRGB, RGB.
+  // The picture of the last frame: exposed, tone-mapped, sRGB, 3 components.
   ByteImage picture() const;
 
-  // Of the last frame: R,G,B luminance (nit); direct.R,G,B and caustics.R,G,B, the parts of it that came from
-  // light that met no caster and from light that met one; shafts.R,G,B, that from the air and from water;
+  // The layers of the last frame: R,G,B, the luminance (nit); direct.R,G,B and caustics.R,G,B, the parts of
+  // it by light that met no caster, and that met one; shafts.R,G,B, the part from the air and from water;
   // depth.Z (m along the view, 0 where there is nothing) and normal.X,Y,Z of the nearest surface.
   Image layers();
 
-  // Of the last frame, as passes left them.
+  // The images of the last frame.
   const FrameImages& images() const { return images_; }
 
-  // Of the last frame: what passes left behind, and the slices that what casters show is looked for in.
+  // Of the last frame: the outputs of the passes, and the slices for the view through casters.
   std::vector<PassOutput> outputs() const;
   std::vector<Lattice> slices() const { return sight_.lattices(); }
 
@@ -71,7 +73,7 @@ class Renderer {
   SceneTransport& transport_;
   Technique& technique_;
   RenderSettings settings_;
-  bool hasTurbidWater_ = false;  // takes of light
+  bool hasTurbidWater_ = false;  // water that absorbs or scatters
   GpuScene gpuScene_;
   FramePrograms programs_;
   FrameImages images_;

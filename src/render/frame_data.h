@@ -1,4 +1,4 @@
-// What the frame's passes are told, for C++ and GLSL. Sizes are at most the 128 bytes of push constants.
+// The constants of the frame's passes, for C++ and GLSL. Each fits into the 128 bytes of push constants.
 #ifndef NEPHROID_RENDER_FRAME_DATA_H
 #define NEPHROID_RENDER_FRAME_DATA_H
 
@@ -14,7 +14,7 @@ struct ShadowConstants {
   mat4 objectToMap;
 };
 
-// Material and emitter travel with the constants: software devices read memory one thread at a time.
+// Material and emitter are in the push constants because software devices read memory one thread at a time.
 struct SurfaceConstants {
   BUFFER_ADDRESS(SceneVertices) vertices;
   BUFFER_ADDRESS(SceneObjects) objects;
@@ -24,10 +24,9 @@ struct SurfaceConstants {
   uint material;
 };
 
-// A light and the projection that its shadow maps share: each map looks along `mapDepth`, with `aim` in its
-// middle.
+// A light, and the projection of its shadow maps: each map looks along `mapDepth`, with `aim` in its middle.
 struct DirectConstants {
-  // As those of Emitter; of a row: the first of its points, with `direction` (m) from one to the next.
+  // As in Emitter. For a row of emitters: the first one, with `direction` (m) as the step to the next.
   vec3 position;
   float coneScale;
   vec3 direction;
@@ -48,7 +47,7 @@ struct DirectConstants {
   BUFFER_ADDRESS(AirLights) air;  // the first; not there where there is no air
 };
 
-// What pixels are lit for: the images of each are SeenImages.
+// The surfaces for which a pixel is lit. Each has its own SeenImages.
 SHARED_CONSTANT uint kSeen = 0u;       // the receiver, in all channels, or in red where a caster disperses
 SHARED_CONSTANT uint kSeenGreen = 1u;  // the receiver in green, where a caster disperses
 SHARED_CONSTANT uint kSeenBlue = 2u;   // the same in blue

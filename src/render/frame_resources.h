@@ -1,4 +1,4 @@
-// The images a frame is made in and the programs that make it.
+// The images and the programs of a frame.
 #pragma once
 
 #include <array>
@@ -11,12 +11,13 @@
 
 namespace nephroid {
 
-// What pixels see, and the light there. Of the frame's size, rgba32f.
+// The surface that each pixel sees, and the light there. All of the frame's size, rgba32f.
 struct SeenImages {
-  gpu::Image position;       // m, a = 1 where there is a receiver
-  gpu::Image normal;         // unit, on the side that is seen; for what is reflected a = reflectance
-  gpu::Image albedo;         // a = material + 1 where there is a receiver, else 0
-  gpu::Image transmittance;  // of the casters through, or in, which it is seen; a = kSight..., 0 for none
+  gpu::Image position;  // m, a = 1 where there is a receiver
+  gpu::Image normal;    // unit, on the side that is seen; for what is reflected a = reflectance
+  gpu::Image albedo;    // a = material + 1 where there is a receiver, else 0
+  gpu::Image
+      transmittance;  // of the casters through which, or in which, it is seen; a = kSight..., 0 for none
   gpu::Image directLux;
   gpu::Image causticsLux;
 };
@@ -26,11 +27,11 @@ struct FrameImages {
   gpu::Image depth;  // d32, reversed: 1 near, 0 infinitely far
   // By kSeen...; all but kSeen are made when they are first needed.
   std::array<SeenImages, kSeenCount> seen;
-  // On the side of the viewer, a = 1 where a caster is in front of the receiver, -1 where that is its inside;
-  // kept only where casters may be.
+  // The normal of the nearest caster, on the viewer's side. a = 1 where a caster is in front of the receiver,
+  // -1 where the viewer sees its inside. Valid only where casters may be.
   gpu::Image casterNormal;
-  // Where water takes of what is seen, made when that is first so: ways of sight in it, and what it scatters
-  // along them (nit).
+  // The parts of view rays in water that absorbs or scatters, and the light that it scatters along them
+  // (nit). Created when they are first needed.
   gpu::Image wayStart, wayDirection, scattered;
   gpu::Image luminance;          // nit; filled for layers only
   gpu::Image directLuminance;    // nit; filled for layers only
@@ -41,7 +42,7 @@ struct FrameImages {
 SeenImages createSeenImages(gpu::Device& device, uint32_t width, uint32_t height);
 FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t height);
 
-// What of casters is in the picture, or a part of it.
+// The properties of the casters in the picture, or in a part of it.
 struct CasterTraits {
   bool areSeen = false;
   bool reflect = false;
@@ -58,11 +59,11 @@ struct FramePrograms {
   std::map<CasterTraits, gpu::Program> layers;
 };
 
-// What there is in a scene for luminance to come from besides lights on receivers.
+// The sources of luminance in a scene, besides lights on receivers.
 struct LuminanceTraits {
   bool hasEmission = false;
   bool hasAir = false;
-  bool hasTurbidWater = false;  // takes of light
+  bool hasTurbidWater = false;  // water that absorbs or scatters
 };
 
 FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& luminance);

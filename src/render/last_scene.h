@@ -1,4 +1,4 @@
-// What of a frame can be taken from the one before.
+// Finds what can be kept from the frame before.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,17 @@
 namespace nephroid {
 
 struct Remade {
-  bool sight = true;  // what the camera sees, whatever lights it
+  bool sight = true;  // the surfaces that the camera sees
   bool shadowMaps = true;
-  bool beams = true;  // what the technique does that no view has a part in
+  bool beams = true;  // the technique's work that does not depend on a view
 };
 
-// The scene of the last frame, as far as it may move: placements, materials, water, lights and the camera.
+// The parts of the last frame's scene that may change: placements, materials, water, lights and camera.
 class LastScene {
  public:
-  // What has to be made again for `scene`, which is the last one from now on. Without `keepsLight`, all that
-  // a moved light would change is. `beamsFollowCamera`: they depend on where it stands.
+  // Returns what has to be computed again for `scene`, and stores it as the last scene. Without `keepsLight`,
+  // everything that a moved light would change is computed again. `beamsFollowCamera`: the beams depend on
+  // the camera's position.
   Remade replace(const Scene& scene, bool keepsLight, bool beamsFollowCamera);
 
  private:

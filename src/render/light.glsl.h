@@ -1,10 +1,11 @@
-// One light: what stands in its way, by its shadow maps, and how gobo and profile shape it.
+// One light: its shadow maps, its gobo and its profile.
 #include "render/frame_data.h"
 
 #include "lights/light_shape.h"
 
 layout(constant_id = 0) const uint kEmitterType = kEmitterPoint;
-// For each point: 0: nothing can shade; 1; or 6, the faces of a cube about the light: +x, -x, +y, -y, +z, -z.
+// Maps for each point. 0: nothing can cast a shadow. 1: one map. 6: the faces of a cube around the light: +x,
+// -x, +y, -y, +z, -z.
 layout(constant_id = 1) const uint kMapCount = 1;
 layout(constant_id = 2) const bool kIsLine = false;
 layout(constant_id = 3) const bool kHasGobo = false;
@@ -40,7 +41,7 @@ Emitter emitterAt(vec3 origin) {
                  constants.coneOffset, 0u);
 }
 
-// Where `offset`, a vector from the light, is in the face of a cube that looks along the largest part of it.
+// The place of `offset`, a vector from the light, on the cube's face that looks along its largest component.
 vec3 projectedOnCube(vec3 offset, out uint face) {
   const vec3 size = abs(offset);
   if (size.x >= size.y && size.x >= size.z) {
@@ -55,7 +56,7 @@ vec3 projectedOnCube(vec3 offset, out uint face) {
   return vec3(offset.z > 0 ? -offset.x : offset.x, offset.y, size.z);
 }
 
-// Place in a map and depth, before the division by it.
+// The place in a map and the depth, before the division by the depth.
 vec3 projected(vec3 offset, float texels, out uint face) {
   face = 0;
   if (kMapCount == 1)
@@ -64,15 +65,15 @@ vec3 projected(vec3 offset, float texels, out uint face) {
   return vec3(place.xy / (constants.texelSize * texels), place.z);
 }
 
-// Where a map's middle is, for one of a light's points.
+// The place of a map's middle, for one of a light's points.
 vec2 middleOfMap(vec3 origin) {
   if (!kIsLine || kMapCount == 0) return vec2(0);
   const vec3 aim = constants.aim - origin;
   return vec2(dot(constants.mapX, aim), dot(constants.mapY, aim)) / dot(constants.mapDepth, aim);
 }
 
-// The part of the light that a tent two texels wide finds unhindered at `offset` from the light, or from the
-// maps' aim where it comes from afar.
+// The part (0..1) of the light that arrives at `offset` from the light (for light from afar: from the maps'
+// aim), filtered with a tent two texels wide.
 float litPart(vec3 offset, vec2 middle, uint firstMap) {
   const bool isPerspective = kEmitterType != kEmitterDirectional;
   const float texels = float(textureSize(shadowMaps, 0).x);
@@ -90,7 +91,7 @@ float litPart(vec3 offset, vec2 middle, uint firstMap) {
   return isPerspective && place.z <= 0 ? 1 : sum;
 }
 
-// What gobo and profile leave of the light that goes along `direction`, within the cone.
+// The part (0..1) of the light along `direction` that gobo and profile let through, within the cone.
 vec3 shape(vec3 direction) {
   const vec3 local = alongFrame(lightFrame(constants.direction), direction);
   vec3 part = vec3(1);

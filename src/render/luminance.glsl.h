@@ -1,6 +1,5 @@
-// Luminance (nit) toward the viewer, from what each pixel sees and the light there: the receiver, or what a
-// caster shows in its place, and what glass reflects. Where a caster disperses, each channel sees a place of
-// its own.
+// Luminance (nit) toward the viewer. Each pixel sees a receiver, or the receiver that a caster shows there,
+// and the one that glass reflects. Where a caster disperses, each channel sees its own place.
 #include "render/frame_data.h"
 
 #include "render/sight/sight_data.h"
@@ -20,9 +19,9 @@ uniform texture2D albedo[kSeenCount];
 uniform texture2D transmittance[kSeenCount];
 uniform texture2D directLux[kSeenCount];
 uniform texture2D causticsLux[kSeenCount];
-// With kHasAir: luminance of the air, and a the part of what is behind it that it lets through.
+// With kHasAir: rgb is the luminance of the air, a is its transmittance.
 uniform texture2D shafts;
-// With kHasTurbidWater: ways of sight in water, and what that scatters along them (nit).
+// With kHasTurbidWater: the parts of view rays in water, and the light that it scatters along them (nit).
 uniform texture2D wayStart;
 uniform texture2D scattered;
 
@@ -53,7 +52,7 @@ void add(inout Luminance sum, vec3 factor, Luminance other) {
   sum.rest += factor * other.rest;
 }
 
-// Past the water that the eye is in, as far as the nearest surface.
+// The transmittance of the water around the eye, up to the nearest surface.
 vec3 leftByWater(ivec2 pixel) {
   return kHasTurbidWater ? exp(-constants.extinctionAtEye * texelFetch(wayStart, pixel, 0).a) : vec3(1);
 }

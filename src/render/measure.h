@@ -1,4 +1,4 @@
-// What an illuminance meter in the scene reads.
+// Reads sensors (illuminance meters) in the scene.
 #pragma once
 
 #include "core/image.h"
@@ -10,14 +10,14 @@
 
 namespace nephroid {
 
-// Illuminance (lux) of one kind of light on a sensor's texels, rows first.
+// Illuminance (lux) of one kind of light on a sensor's texels, [row * resolution.x + column].
 using SensorLayer = std::vector<vec3>;
 
-// Light that met no caster: shadow rays from a grid of points in every texel to every emitter.
+// Direct light, by shadow rays from a grid of points in every texel to every emitter.
 SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor, Progress& progress);
 
-// Light that met at least one caster, by beams cut by the sensor's own plane: no virtual planes and no
-// device. Counts of rays and beams are added to `stats`.
+// Caustics, by beams that are cut at the sensor's own plane: without virtual planes and without a device.
+// Adds the counts of rays and beams to `stats`.
 SensorLayer measureBeams(const Scene& scene, const RayScene& rays, const TransportSource& source,
                          const Sensor& sensor, Paths paths, uint32_t refineDepth, Progress& progress,
                          Stats& stats);

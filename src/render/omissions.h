@@ -1,4 +1,4 @@
-// What every picture leaves out, because of the frame that caustics are drawn in.
+// What every picture leaves out, for any technique.
 #pragma once
 
 #include "techniques/omissions.h"

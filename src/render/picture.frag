@@ -1,4 +1,4 @@
-// Luminance exposed and tone-mapped, as a screen is told to show it.
+// Turns luminance into the values of a picture: exposed, tone-mapped, sRGB.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,4 +1,4 @@
-// Luminance as a picture, by the tone mapper that frames are drawn with.
+// Turns luminance into a picture, with the same tone mapper as for frames.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace nephroid {
 
-// The R, G and B (nit) of a layer, "" for the total: multiplied by `exposure`, tone-mapped, sRGB, RGB. What
-// is not a number is black.
+// The picture of a layer's R, G and B (nit); "" is the total. Values are multiplied by `exposure`,
+// tone-mapped and converted to sRGB, 3 components. Values that are not numbers become black.
 ByteImage pictureOf(const Image& image, float exposure, const std::string& layer = "");
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// How a scene is drawn, whichever technique draws its caustics.
+// The settings of pictures, apart from those of the technique.
 #pragma once
 
 #include <vector>
@@ -16,12 +16,12 @@ struct RenderSettings {
   uint32_t shadowMapSize = 0;  // texels along a side; 0: as many as pixels along the picture's longer side
   SightSettings sight;
   ShaftSettings shafts;
-  // Shadow maps and beams of the last frame are kept while all that they depend on stands still. Without it
-  // each frame does all that a moved light would change.
+  // Keep shadow maps and beams of the last frame where nothing that they depend on has changed. Without it,
+  // each frame does all work that a moved light needs.
   bool keepsLight = false;
 };
 
-// All that a user may choose about a picture.
+// All settings of a picture that a user may choose.
 struct PictureSettings {
   TechniqueSettings technique;
   SightSettings sight;
@@ -29,13 +29,14 @@ struct PictureSettings {
   bool operator==(const PictureSettings&) const = default;
 };
 
-// Of `size` pixels.
+// The render settings for a picture of `size` pixels.
 RenderSettings renderSettings(const PictureSettings& settings, uvec2 size);
 
-// Technique, source and all that the technique uses, as the command line takes them.
+// Writes the technique, the source and all settings that the technique uses to `stats`, as on the command
+// line.
 void describeSettings(PictureSettings settings, Stats& stats);
 
-// Of every owner: those of all techniques, or those that the chosen one uses.
+// The settings of all owners: those of all techniques, or only those that the chosen technique uses.
 std::vector<SettingsView> allSettings(PictureSettings& settings);
 std::vector<SettingsView> usedSettings(PictureSettings& settings);
 

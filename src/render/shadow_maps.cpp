@@ -75,7 +75,7 @@ bool reachesInto(const mat4& worldToMap, const Sphere& sphere) {
 }
 
 constexpr float kFewestTexels = 64;      // along a side, so that a map's border is empty
-constexpr float kWidestTangent = 1.75f;  // of what one map may see, half of it: about 60 degrees
+constexpr float kWidestTangent = 1.75f;  // of the half angle that one map may see: about 60 degrees
 
 void setAxes(ShadowProjection& projection, vec3 forward) {
   const vec3 up = std::abs(forward.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0);

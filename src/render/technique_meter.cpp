@@ -55,63 +55,64 @@ std::vector<std::vector<std::byte>> bytesOf(const std::vector<vec4>& texels) {
 
 TechniqueMeter::TechniqueMeter(gpu::Device& deviceToUse, const Scene& sceneToRead, const Sensor& sensorToRead,
                                const TechniqueSettings& settings, Progress& progress, Stats& stats)
-    : device(deviceToUse),
-      sensor(sensorToRead),
-      scene(withReceiver(sceneToRead, sensorToRead)),
-      gpuScene(device, scene),
-      transport(scene, transportOf(settings), progress),
-      technique(makeTechnique({device, settings, transport, stats})),
-      positions(pointImage(device, "sensor positions", sensor, *technique)),
-      normals(pointImage(device, "sensor normals", sensor, *technique)),
-      caustics(pointImage(device, "sensor caustics", sensor, *technique)) {
-  technique->reserve({positions.width(), positions.height()});
+    : device_(deviceToUse),
+      sensor_(sensorToRead),
+      scene_(withReceiver(sceneToRead, sensorToRead)),
+      gpuScene_(device_, scene_),
+      transport_(scene_, transportOf(settings), progress),
+      technique_(makeTechnique({device_, settings, transport_, stats})),
+      positions_(pointImage(device_, "sensor positions", sensor_, *technique_)),
+      normals_(pointImage(device_, "sensor normals", sensor_, *technique_)),
+      caustics_(pointImage(device_, "sensor caustics", sensor_, *technique_)) {
+  technique_->reserve({positions_.width(), positions_.height()});
   uploadNormals();
 }
 
 void TechniqueMeter::uploadNormals() {
-  const std::vector<vec4> texels(std::size_t(normals.width()) * normals.height(), vec4(sensor.normal(), 0));
-  gpu::uploadImage(device, normals, bytesOf(texels));
+  const std::vector<vec4> texels(std::size_t(normals_.width()) * normals_.height(),
+                                 vec4(sensor_.normal(), 0));
+  gpu::uploadImage(device_, normals_, bytesOf(texels));
 }
 
 void TechniqueMeter::uploadPoints(vec2 offset) {
-  const uint32_t width = positions.width(), height = positions.height();
+  const uint32_t width = positions_.width(), height = positions_.height();
   std::vector<vec4> points(std::size_t(width) * height);
   for (uint32_t y = 0; y < height; ++y)
     for (uint32_t x = 0; x < width; ++x) {
       const vec2 at = (vec2(float(x), float(y)) + offset) / vec2(float(width), float(height));
-      points[std::size_t(y) * width + x] = vec4(sensor.corner + at.x * sensor.u + at.y * sensor.v, 1);
+      points[std::size_t(y) * width + x] = vec4(sensor_.corner + at.x * sensor_.u + at.y * sensor_.v, 1);
     }
-  gpu::uploadImage(device, positions, bytesOf(points));
+  gpu::uploadImage(device_, positions_, bytesOf(points));
 }
 
 void TechniqueMeter::addShaded(SensorLayer& layer) {
-  device.submitAndWait([&](gpu::CommandList& commands) {
-    commands.pass("clear", [&] { commands.clear(caustics, vec4(0)); });
-    technique->shade(commands, {&positions, &normals}, caustics);
+  device_.submitAndWait([&](gpu::CommandList& commands) {
+    commands.pass("clear", [&] { commands.clear(caustics_, vec4(0)); });
+    technique_->shade(commands, {&positions_, &normals_}, caustics_);
   });
-  const std::vector<vec4> points = gpu::download<vec4>(device, caustics);
-  const uint32_t along = pointsAlongTexel(*technique);
-  for (uint32_t y = 0; y < caustics.height(); ++y)
-    for (uint32_t x = 0; x < caustics.width(); ++x)
-      layer[std::size_t(y / along) * sensor.resolution.x + x / along] +=
-          vec3(points[std::size_t(y) * caustics.width() + x]);
+  const std::vector<vec4> points = gpu::download<vec4>(device_, caustics_);
+  const uint32_t along = pointsAlongTexel(*technique_);
+  for (uint32_t y = 0; y < caustics_.height(); ++y)
+    for (uint32_t x = 0; x < caustics_.width(); ++x)
+      layer[std::size_t(y / along) * sensor_.resolution.x + x / along] +=
+          vec3(points[std::size_t(y) * caustics_.width() + x]);
 }
 
 SensorLayer TechniqueMeter::read() {
-  transport.place(scene);
-  gpuScene.place(scene);
-  technique->update(gpuScene);
+  transport_.place(scene_);
+  gpuScene_.place(scene_);
+  technique_->update(gpuScene_);
   SensorLayer layer;
-  const uint32_t passes = technique->traits().coversSquares ? 1 : kPasses;
-  device.submitAndWait([&](gpu::CommandList& commands) { technique->record(commands, gpuScene); });
+  const uint32_t passes = technique_->traits().coversSquares ? 1 : kPasses;
+  device_.submitAndWait([&](gpu::CommandList& commands) { technique_->record(commands, gpuScene_); });
   do {
-    layer.assign(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
+    layer.assign(std::size_t(sensor_.resolution.x) * sensor_.resolution.y, vec3(0));
     for (uint32_t pass = 0; pass < passes * passes; ++pass) {
       uploadPoints((vec2(float(pass % passes), float(pass / passes)) + 0.5f) / float(passes));
       addShaded(layer);
     }
-  } while (!technique->finish());
-  const float points = float(pointsAlongTexel(*technique) * passes);
+  } while (!technique_->finish());
+  const float points = float(pointsAlongTexel(*technique_) * passes);
   for (vec3& lux : layer) lux /= points * points;
   return layer;
 }

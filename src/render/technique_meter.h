@@ -1,3 +1,4 @@
+// Measures what a technique gives on a sensor.
 #pragma once
 
 #include <memory>
@@ -10,29 +11,29 @@
 
 namespace nephroid {
 
-// A sensor read through a technique, as a camera would see a receiver in its place: with all that virtual
-// planes get wrong.
+// Reads a sensor with a technique, as if a receiver stood in the sensor's place and a camera saw it. So it
+// has all errors of the technique.
 class TechniqueMeter {
  public:
-  // Device, sensor, settings, progress and stats outlive it.
+  // Device, sensor, settings, progress and stats must outlive it.
   TechniqueMeter(gpu::Device& device, const Scene& scene, const Sensor& sensor,
                  const TechniqueSettings& settings, Progress& progress, Stats& stats);
 
-  // Illuminance (lux) by light that met a caster; recomputes all that a moved light would change.
+  // The illuminance (lux) by light that met a caster. Each call does all work that a moved light needs.
   SensorLayer read();
 
  private:
   void uploadNormals();
-  void uploadPoints(vec2 offset);  // where in its part of a texel each point lies
+  void uploadPoints(vec2 offset);  // `offset`: place of the points in their part of a texel
   void addShaded(SensorLayer& layer);
 
-  gpu::Device& device;
-  const Sensor& sensor;
-  Scene scene;  // with a receiver where the sensor is
-  GpuScene gpuScene;
-  SceneTransport transport;
-  std::unique_ptr<Technique> technique;
-  gpu::Image positions, normals, caustics;
+  gpu::Device& device_;
+  const Sensor& sensor_;
+  Scene scene_;  // with a receiver where the sensor is
+  GpuScene gpuScene_;
+  SceneTransport transport_;
+  std::unique_ptr<Technique> technique_;
+  gpu::Image positions_, normals_, caustics_;
 };
 
 }  // namespace nephroid

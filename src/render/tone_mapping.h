@@ -1,4 +1,4 @@
-// Luminance to sRGB by the Khronos PBR neutral tone mapper (KhronosGroup/ToneMapping): colours below its
+// Luminance to sRGB by the Khronos PBR neutral tone mapper (KhronosGroup/ToneMapping): colors below its
 // shoulder stay as they are, brighter ones are compressed and lose saturation.
 #ifndef NEPHROID_RENDER_TONE_MAPPING_H
 #define NEPHROID_RENDER_TONE_MAPPING_H
@@ -29,7 +29,7 @@ SHARED_FUNCTION vec3 srgbEncoded(vec3 linear) {
   return mix(1.055f * power - 0.055f, linear * 12.92f, lessThanEqual(linear, vec3(0.0031308f)));
 }
 
-// Luminance (nit) as a screen is told to show it, 0 to 1.
+// The value (0..1, sRGB) that a screen shows for a luminance (nit).
 SHARED_FUNCTION vec3 displayed(vec3 luminance, float exposure) {
   const vec3 shown = toneMapped(max(exposure * luminance, vec3(0.0f)));
   return srgbEncoded(clamp(shown, 0.0f, 1.0f));

@@ -1,4 +1,4 @@
-// The camera as passes are told of it.
+// The camera for the passes.
 #pragma once
 
 #include <array>
@@ -15,26 +15,27 @@ struct View {
   vec3 eye;          // m
   vec3 forward;      // unit
   float nearest;     // m
-  float pixelAngle;  // radians between neighbouring pixels, in the middle of the picture
+  float pixelAngle;  // radians between neighboring pixels, in the middle of the picture
 };
 
-// What a camera that looks along `forward` (unit) has above it; not necessarily across the view.
+// The upward direction of a camera that looks along `forward` (unit); not necessarily perpendicular to it.
 vec3 uprightFor(const Camera& camera, vec3 forward);
 
-// Sees infinitely far, and as near as a ten-thousandth of the distance to what is looked at.
+// The view of a camera. `size`: pixels. The far end is infinite; the near end is a ten-thousandth of the
+// distance to the target.
 View viewOf(const Camera& camera, uvec2 size);
 
-// A ray of sight at the place (x, y) of clip space goes along middle + x * right + y * down, whose part along
-// the view is 1.
+// The view ray at the place (x, y) of clip space has the direction middle + x * right + y * down, whose
+// component along the camera's axis is 1.
 struct PictureRays {
   vec3 middle, right, down;
 };
 PictureRays raysOf(const View& view);
 
-// The pixels that a box with these corners (m, world space) may cover; of no size where there are none.
+// The pixels that a box with these corners (m, world space) may cover. Its size is 0 where there are none.
 gpu::Region regionOf(const View& view, uvec2 size, const std::array<vec3, 8>& corners);
 
-// The smallest that holds both.
+// The smallest region that holds both.
 gpu::Region unionOf(const gpu::Region& a, const gpu::Region& b);
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// Images of techniques beside those of the reference: what a report is made of.
+// The content of a report: images of techniques and of the reference.
 #pragma once
 
 #include <optional>
@@ -22,23 +22,23 @@ struct TechniqueResult {
 struct ReferenceResult {
   Image image;  // as a technique's, with variance.R,G,B and caustics.variance.R,G,B
   uint32_t passes = 0;
-  double noise = 0;    // relative standard error, as the reference tells it
-  double seconds = 0;  // that all passes took
+  double noise = 0;    // relative standard error of the reference
+  double seconds = 0;  // time of all passes
   std::vector<ImageAttribute> attributes;
 };
 
-// What a camera sees (nit) or what falls on a sensor (lux).
+// The results for the camera (nit) or for a sensor (lux).
 struct SideBySide {
   std::string sensor;  // its name; empty for the camera
   ReferenceResult reference;
   std::vector<TechniqueResult> techniques;  // images of the reference's size
-  // Of a camera: pixels in which no caster is in front, one a pixel. Empty: not known.
+  // For a camera: 1 for each pixel in which no caster is in front, else 0, row by row. Empty: not known.
   std::vector<uint8_t> seesReceiver;
 };
 
-// Something left out of what the reference computes.
+// An effect that the reference computes and a technique does not.
 struct LeftOut {
-  std::string technique;  // empty: by all of them
+  std::string technique;  // empty: all techniques
   std::string what;
   bool concernsScene = true;
 };
@@ -48,12 +48,12 @@ struct Comparison {
   std::string scene;    // its file's name
   std::string commandLine;
   std::string device;
-  double time = 0;  // s, of what moves by itself
+  double time = 0;  // s, the scene's time
   float exposure = 1;
   std::string paths;           // the reference's: "transmission" or "all"
   std::string techniquePaths;  // the techniques'
   std::string spectrum;        // "channels" or "continuous"
-  uint32_t photons = 0;        // of a pass of the reference
+  uint32_t photons = 0;        // in a pass of the reference
   std::vector<LeftOut> leftOut;
   SideBySide view;
   std::vector<SideBySide> sensors;
@@ -70,18 +70,19 @@ struct FlipResult {
   double maximum = 0;
 };
 
-// Of a technique against the reference.
+// The errors of a technique against the reference.
 struct Errors {
   std::vector<LayerResult> layers;
-  std::optional<FlipResult> flip;  // of pictures; sensors have none
+  std::optional<FlipResult> flip;  // for pictures; sensors have none
 };
 
-// Of each technique: total, direct light and caustics, as far as the images have them; for a camera the
-// caustics on receivers that no caster hides as well. Throws InputError where image sizes differ.
+// The errors of each technique: of the total, of direct light and of caustics, where the images have these
+// layers. For a camera also of the caustics in pixels without a caster in front. Throws InputError where
+// image sizes differ.
 std::vector<Errors> errorsOf(const SideBySide& pair, float exposure);
 
-// What follows from how reference and techniques were told to follow light: whether their difference is one
-// of numbers alone.
+// A sentence for the reader of the report: whether reference and techniques follow the same paths of light,
+// so that only numerical errors remain.
 std::string whatDiffers(const Comparison& comparison);
 
 }  // namespace nephroid

@@ -77,7 +77,7 @@ void judgeMaterial(const Material& material, CasterReport& report) {
 
 void judgeLight(const Scene& scene, const Object& object, CasterReport& report) {
   const Box bounds = worldBounds(scene, object);
-  const vec3 centre = bounds.center();
+  const vec3 center = bounds.center();
   const float radius = 0.5f * bounds.diagonal();
   if (scene.lights.empty()) {
     report.obstacles.push_back("no light reaches it: the scene has none");
@@ -86,7 +86,7 @@ void judgeLight(const Scene& scene, const Object& object, CasterReport& report) 
   const auto bright =
       std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& l) { return !isDark(l); });
   const auto reaching = std::count_if(scene.lights.begin(), scene.lights.end(),
-                                      [&](const Light& l) { return reaches(l, centre, radius); });
+                                      [&](const Light& l) { return reaches(l, center, radius); });
   if (bright == 0) {
     report.obstacles.push_back("no light reaches it: the intensity of every light is 0");
   } else if (reaching == 0) {
@@ -169,13 +169,13 @@ const char* nameOf(MaterialType type) {
 
 }  // namespace
 
-bool reaches(const Light& light, vec3 centre, float radius) {
+bool reaches(const Light& light, vec3 center, float radius) {
   if (isDark(light)) return false;
   if (light.type != LightType::spot) return true;
-  const vec3 toCentre = centre - light.position;
-  const float distance = glm::length(toCentre);
+  const vec3 toCenter = center - light.position;
+  const float distance = glm::length(toCenter);
   if (distance <= radius) return true;
-  const float offAxis = std::acos(glm::clamp(glm::dot(toCentre / distance, light.direction), -1.0f, 1.0f));
+  const float offAxis = std::acos(glm::clamp(glm::dot(toCenter / distance, light.direction), -1.0f, 1.0f));
   return offAxis - std::asin(radius / distance) < glm::radians(light.outerAngle);
 }
 

@@ -1,4 +1,4 @@
-// What a scene holds, and which of its casters will make no caustics, or poor ones, and why.
+// Describes a scene: its contents, and the casters that make no caustics or poor ones, with the reason.
 #pragma once
 
 #include <string>
@@ -10,16 +10,15 @@ namespace nephroid {
 
 struct CasterReport {
   uint32_t object = 0;
-  uint32_t boundaryEdges = 0;     // edges of its mesh with one face
-  uint32_t nonManifoldEdges = 0;  // with more than two
-  std::vector<std::string>
-      obstacles;  // why it will make no caustics, or poor ones; empty when nothing is in the way
-  std::vector<std::string> notes;  // what is worth knowing and does no harm
+  uint32_t boundaryEdges = 0;          // edges of its mesh with one face
+  uint32_t nonManifoldEdges = 0;       // with more than two
+  std::vector<std::string> obstacles;  // reasons why it makes no caustics, or poor ones; empty: none
+  std::vector<std::string> notes;      // remarks without consequences
 };
 
 struct SceneReport {
   std::size_t objects = 0, casters = 0, receivers = 0;
-  std::size_t triangles = 0, vertices = 0;  // of all objects, each counted as often as it stands there
+  std::size_t triangles = 0, vertices = 0;  // of all objects; a mesh that two objects use counts twice
   std::size_t droppedTriangles = 0;         // without an area, left out of the meshes
   std::size_t materials = 0, textures = 0, lights = 0, sensors = 0;
   std::vector<CasterReport> casterReports;  // in the order of the objects
@@ -32,8 +31,7 @@ SceneReport diagnose(const Scene& scene);
 // The report as lines of text for a reader.
 std::string describe(const Scene& scene, const SceneReport& report);
 
-// Whether light from it can come to a ball, as far as its kind, strength and cone say; what stands between
-// does not count.
-bool reaches(const Light& light, vec3 centre, float radius);
+// Whether the light can reach a ball (m), by its type, strength and cone. Objects in between are ignored.
+bool reaches(const Light& light, vec3 center, float radius);
 
 }  // namespace nephroid

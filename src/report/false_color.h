@@ -1,4 +1,4 @@
-// Numbers as colours. Errors of a kind have one map wherever they are shown.
+// Color maps for numbers.
 #pragma once
 
 #include <array>
@@ -11,20 +11,22 @@ namespace nephroid {
 
 using SrgbColor = std::array<uint8_t, 3>;
 
-// 0 to 1, held at its ends: from black by purple and orange to light yellow, as bright as large ("magma" of
-// matplotlib; a polynomial through it by M. Zucker). Takes what is not a number as 0.
+// The color of a value from 0 to 1: from black through purple and orange to light yellow; larger values are
+// brighter ("magma" of matplotlib, as a polynomial by M. Zucker). Values outside are clamped; NaN counts as
+// 0.
 SrgbColor magnitudeColor(float value);
 
-// -1 to 1, held at its ends: blue, white at 0, red (ColorBrewer's "RdBu", linear between its eleven classes);
-// apart also to those who do not tell red from green. Grey for what is not a number.
+// The color of a value from -1 to 1: blue, white at 0, red (ColorBrewer's "RdBu", linear between its eleven
+// classes), which also color-blind readers can tell apart. Values outside are clamped; NaN is gray.
 SrgbColor signedColor(float value);
 inline constexpr SrgbColor kNoValueColor{128, 128, 128};
 
-// `values` row by row; a value of `bound` has the colour of 1.
+// A map of `values` (row by row); the value `bound` has the color of 1.
 ByteImage magnitudeMap(std::span<const float> values, uint32_t width, uint32_t height, double bound);
 ByteImage signedMap(std::span<const float> values, uint32_t width, uint32_t height, double bound);
 
-// The next of 1, 2 and 5 times a power of ten that is not below `value`, for the end of a scale; 1 of 0.
+// A round number for the end of a scale: the smallest 1, 2 or 5 times a power of ten that is not below
+// `value`; 1 for 0.
 double endOfScale(double value);
 
 }  // namespace nephroid

@@ -15,7 +15,7 @@ namespace {
 
 using glm::vec3;
 
-// The paper's constants: exponents of the colour and the feature difference, the knee of the colour errors'
+// The paper's constants: exponents of the color and the feature difference, the knee of the color errors'
 // redistribution, and the width of the feature detectors in degrees.
 constexpr float kColorExponent = 0.7f;
 constexpr float kFeatureExponent = 0.5f;
@@ -170,7 +170,7 @@ std::vector<vec3> perceivedColors(const std::array<Plane, 3>& opponent, double p
   return colors;
 }
 
-// Colour differences from 0 to the largest there is, green to blue, onto 0 to 1.
+// Color differences from 0 to the largest there is, green to blue, onto 0 to 1.
 float redistributed(float distance) {
   static const float kLargest =
       std::pow(hybridDistance(huntLabOf({0, 1, 0}), huntLabOf({0, 0, 1})), kColorExponent);

@@ -12,8 +12,8 @@ namespace nephroid {
 // The paper's viewer: 0.7 m from a screen that is 0.7 m and 3840 pixels wide.
 inline constexpr double kPixelsPerDegree = 67.0206432765823;
 
-// For each pixel 0 (no difference) to 1 (the largest). Both pictures are sRGB, RGB or RGBA (alpha is not
-// looked at), and of one size, which the caller sees to.
+// The difference for each pixel, row by row, from 0 (none) to 1 (the largest). Both pictures are sRGB with 3
+// or 4 components (alpha is ignored), and must have the same size.
 std::vector<float> ldrFlip(const ByteImage& reference, const ByteImage& test,
                            double pixelsPerDegree = kPixelsPerDegree);
 

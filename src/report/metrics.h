@@ -1,7 +1,6 @@
-// How far an image is from a reference of the same size, in its own linear units. A layer is three channels
-// of an image: "" the total, "direct.", "caustics.", ... with R, G, B after it. Where the reference has
-// <layer>variance.R,G,B, the variance of its mean, it is known how much of a difference is the reference's
-// noise.
+// Errors of an image against a reference of the same size, in the linear units of the images. A layer is
+// three channels R, G, B of an image with a common prefix: "" is the total, then "direct.", "caustics." and
+// others. If the reference has <layer>variance.R,G,B (the variance of its mean), its noise is known.
 #pragma once
 
 #include <optional>
@@ -12,21 +11,21 @@
 
 namespace nephroid {
 
-// Not a number: there is nothing to divide by.
+// A value is NaN where the divisor is 0.
 struct LayerErrors {
   double referenceMean = 0;  // nit or lux, over pixels and channels
   double fluxRatio = 0;      // sum of the image over that of the reference
   double relativeRmse = 0;   // root of the mean squared difference, over the reference's mean
-  // What relativeRmse would be of an image without any error: the root of the reference's mean variance, over
+  // The relativeRmse of an image without any error: the square root of the reference's mean variance, over
   // its mean.
   std::optional<double> noiseFloor;
   // Mean over pixels of the sum over channels of |difference|, over the sum over channels of the reference.
-  // Only pixels count whose reference is larger than its own standard error: below it, what is divided by is
-  // not told from nothing.
+  // Only pixels count whose reference is larger than its own standard error; below, the divisor may be only
+  // noise.
   double mape = 0;
-  double countedFraction = 0;  // of the pixels, those that count for `mape`
-  // Root mean square of difference over standard error, of the values whose standard error is not zero: 1
-  // where all the difference is the reference's noise.
+  double countedFraction = 0;  // the part (0..1) of the pixels that count for `mape`
+  // The root mean square of difference over standard error, for values whose standard error is not zero.
+  // About 1 where the whole difference is noise of the reference.
   std::optional<double> zScoreRms;
 };
 
@@ -36,7 +35,7 @@ bool hasLayer(const Image& image, const std::string& layer);
 // Both images have the layer and are of one size.
 LayerErrors layerErrors(const Image& reference, const Image& image, const std::string& layer);
 
-// For each pixel the signed difference summed over channels, over the reference's sum; not a number where the
+// For each pixel: the signed difference, summed over channels, divided by the reference's sum. NaN where the
 // pixel does not count.
 std::vector<float> relativeErrors(const Image& reference, const Image& image, const std::string& layer);
 
@@ -46,10 +45,10 @@ std::vector<float> absoluteErrors(const Image& reference, const Image& image, co
 // For each pixel the mean over channels.
 std::vector<float> channelMeans(const Image& image, const std::string& layer);
 
-// Some of an image's pixels, those where `chosen` (one for each pixel) is not 0, in a row.
+// The pixels of an image where `chosen` (one value for each pixel) is not 0, as an image with one row.
 Image pixelsOf(const Image& image, const std::vector<uint8_t>& chosen);
 
-// The value that `fraction` of the values, those that are numbers, do not exceed; 0 of none.
+// The value that the part `fraction` (0..1) of the values does not exceed, without NaNs; 0 for an empty list.
 double quantile(std::vector<float> values, double fraction);
 
 }  // namespace nephroid

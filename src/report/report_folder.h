@@ -7,11 +7,11 @@
 
 namespace nephroid {
 
-// Throws InputError where the folder holds anything that no report has written, and RuntimeFailure where none
-// can be made there; to be asked before the work.
+// To be called before the work. Throws InputError where the folder holds files that are not from a report,
+// RuntimeFailure where the folder cannot be created.
 void checkReportFolder(const std::filesystem::path& folder);
 
-// There whole or not at all; takes the place of a report that was there. Throws as checkReportFolder does.
+// Writes the report completely or not at all, and replaces an old report. Throws as checkReportFolder does.
 void writeReport(const std::filesystem::path& folder, const Comparison& comparison);
 
 }  // namespace nephroid

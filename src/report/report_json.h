@@ -15,15 +15,15 @@ struct ComparisonErrors {
 
 ComparisonErrors errorsOf(const Comparison& comparison);
 
-// The name of a file of the report: what it shows is the reference or a technique, through the camera
-// (`sensor` none) or on a sensor.
+// The name of a file of the report. `what`: the reference or a technique. `sensor`: index of the sensor; none
+// for the camera.
 std::string reportFileName(const Comparison& comparison, const std::string& what,
                            std::optional<std::size_t> sensor, const std::string& extension);
 
-// What a report.json says of itself, and how a folder is known to be a report.
+// The format entry in report.json, by which a folder is recognized as a report.
 inline constexpr const char* kReportFormat = "nephroid report 1";
 
-// report.json. Numbers that there are none of are null. `files`: all that the report consists of.
+// The text of report.json. NaN and missing numbers are null. `files`: all files of the report.
 std::string reportJson(const Comparison& comparison, const ComparisonErrors& errors,
                        const std::vector<std::string>& files);
 

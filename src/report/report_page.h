@@ -1,4 +1,4 @@
-// The page of a report: one HTML file that needs no other and no network.
+// The page of a report: a single HTML file that needs no other file and no network.
 #pragma once
 
 #include <string>

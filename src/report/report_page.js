@@ -94,7 +94,7 @@
     const box = element("div", { class: "legend" },
       element("div", { class: "bar", style: `background: linear-gradient(to right, ${colors.join(", ")})` }),
       element("div", { class: "ends" }, ...texts));
-    if (scale.signed) box.append("blue: too dark, red: too bright, grey: nothing to compare with");
+    if (scale.signed) box.append("blue: too dark, red: too bright, gray: nothing to compare with");
     return box;
   };
 

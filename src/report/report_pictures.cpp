@@ -8,7 +8,7 @@
 namespace nephroid {
 namespace {
 
-constexpr double kRelativeBound = 0.25;    // where relative errors end in the deepest colour
+constexpr double kRelativeBound = 0.25;    // where relative errors end in the deepest color
 constexpr double kBrightQuantile = 0.995;  // of values, those above are a few texels of a focus
 
 struct ShownLayer {

@@ -9,14 +9,14 @@
 
 namespace nephroid {
 
-// What the colours of a false-colour picture stand for: from 0, or from -bound where it is signed, to bound.
+// The scale of a false-color picture: from 0 (or from -bound where it is signed) to bound.
 struct ColorScale {
   bool isSigned = false;
   double bound = 1;
   std::string unit;  // "nit", "lux", "%"; empty for a plain number
 };
 
-// The reference and the techniques shown alike, to be laid over each other.
+// Pictures of the reference and the techniques in the same way, to be compared by switching.
 struct PictureView {
   std::string name;
   std::optional<ColorScale> scale;
@@ -35,7 +35,7 @@ struct SidePictures {
   std::vector<std::vector<ErrorMap>> maps;  // of each technique
 };
 
-// `errors` are those of `pair`. A camera is shown as pictures, a sensor in false colour.
+// `errors` are those of `pair`. A camera is shown as pictures, a sensor in false color.
 SidePictures picturesOf(const SideBySide& pair, const std::vector<Errors>& errors, float exposure);
 
 }  // namespace nephroid

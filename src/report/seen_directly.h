@@ -1,4 +1,4 @@
-// What of a picture shows no glass and no mirror.
+// Finds the pixels of a picture that show no glass and no mirror.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace nephroid {
 
-// For each of the camera's pixels, row by row, 1 where neither its middle nor its corners see a caster first,
-// else 0. What glass and mirrors look like has no part in these.
+// For each pixel of the camera, row by row: 1 where the nearest surface at its middle and its corners is no
+// caster, else 0. The view through glass and mirrors does not influence these pixels.
 std::vector<uint8_t> seesReceiver(const Scene& scene, const RayScene& rays, uvec2 size);
 
 }  // namespace nephroid

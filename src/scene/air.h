@@ -1,4 +1,4 @@
-// The medium between the objects, as optics/ computes it.
+// The medium between the objects, computed with the functions of optics/.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline Air airOf(const Medium& medium) {
   return {medium.extinction, medium.albedo, medium.g, medium.fogBase, inverseFogHeight};
 }
 
-// 1/sr; `cosine` between the ways light travels before and after.
+// The phase function (1/sr). `cosine`: between the directions of travel before and after.
 inline float phaseOf(const Medium& medium, float cosine) {
   return phaseFunction(phaseCode(medium.phase), medium.g, cosine);
 }
@@ -25,13 +25,14 @@ inline bool scatters(const Medium& medium) {
   return medium.extinction * medium.albedo > 0;
 }
 
-// 1/m
+// The scattering coefficient (1/m) at a point.
 inline float scatteringAt(const Medium& medium, vec3 point) {
   return medium.extinction * medium.albedo *
          (medium.grid ? densityAt(*medium.grid, point) : fogDensity(airOf(medium), point.y));
 }
 
-// Natural logarithm of what `length` (m, may be infinite) of the air along unit `direction` takes of light.
+// The optical depth of the air along `direction` (unit): minus the natural logarithm of its transmittance.
+// `length`: m, may be infinite.
 inline float opticalDepth(const Medium& medium, vec3 from, vec3 direction, float length) {
   const Air air = airOf(medium);
   const float way = std::min(length, kFarthestAir);

@@ -1,3 +1,4 @@
+// The indices of refraction of the color channels from a dispersion.
 #pragma once
 
 #include <algorithm>
@@ -6,8 +7,8 @@
 
 namespace nephroid {
 
-// Gives a dielectric the index `ior` at the d line and the Abbe number 20 / dispersion
-// (KHR_materials_dispersion); 0: none. Red and blue lie as far from green as the extension has it.
+// Sets the index `ior` at the d line (587.6 nm) and the Abbe number 20 / dispersion of a dielectric; a
+// dispersion of 0: none. The indices of red and blue follow KHR_materials_dispersion.
 inline void setDispersion(Material& material, double ior, double dispersion) {
   const double halfSpread = std::min((ior - 1) * 0.025 * dispersion, ior - 1);
   material.dispersion = static_cast<float>(dispersion);

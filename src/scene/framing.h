@@ -1,4 +1,4 @@
-// How much room objects take, and where a camera stands when the scene does not say.
+// Boxes around objects, and the camera of a scene without one.
 #pragma once
 
 #include "geometry/box.h"
@@ -6,18 +6,16 @@
 
 namespace nephroid {
 
-// Around an object, where it stands.
+// The box (m, world space) around an object.
 Box worldBounds(const Scene& scene, const Object& object);
 
-// Around all casters, or all objects where there are none: what cameras and lights are there for. Empty
-// without objects.
+// The box (m) around all casters, or around all objects where there are no casters. Empty without objects.
 Box boundsOfInterest(const Scene& scene);
 
-// Up along y, unless the view (any length) runs along it.
+// An upward direction: y, unless the view (of any length) is parallel to it.
 vec3 upFor(vec3 view);
 
-// A camera that sees, from the front and above, all casters, or all objects where there are none. Throws
-// InputError as checkObjects does.
+// A camera that sees boundsOfInterest from the front and above. Throws InputError as checkObjects does.
 Camera framingCamera(const Scene& scene);
 
 }  // namespace nephroid

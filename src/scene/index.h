@@ -1,4 +1,4 @@
-// Parts of a scene refer to each other by index.
+// The index that means "none". Parts of a scene refer to each other by index.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The air, and how a volume scatters.
+// The medium between objects (air, fog, clouds).
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 namespace nephroid {
 
 enum class PhaseType { isotropic, henyeyGreenstein, nishita };
-inline constexpr double kLargestG = 0.999;  // of Henyey-Greenstein, forward or back
+inline constexpr double kLargestG = 0.999;  // largest absolute value of Henyey-Greenstein's g
 
-// How dense the air is in a box, as a part of the most there may be: linear between the middles of its cells,
-// and 0 outside.
+// The density of the air in a box, as a part (0..1) of the largest density. It is linear between the middles
+// of cells, and 0 outside the box.
 struct DensityGrid {
   std::string name;
-  vec3 corner{0};  // m, where all coordinates are lowest
+  vec3 corner{0};  // m, the corner with the lowest coordinates
   vec3 size{1};    // m
   uvec3 cells{1};
   std::vector<float> densities;  // 0 to 1, [(z * cells.y + y) * cells.x + x]
@@ -26,10 +26,11 @@ struct Medium {
   float extinction = 0;  // 1/m
   float albedo = 0;      // scattering over extinction
   PhaseType phase = PhaseType::isotropic;
-  float g = 0;                      // Henyey-Greenstein
-  float fogBase = 0;                // m along +y, up to where the air is as dense as `extinction` says
-  float fogHeight = 0;              // m, above there, in which it thins out by the factor e; 0: it never does
-  std::optional<DensityGrid> grid;  // multiplies that
+  float g = 0;        // Henyey-Greenstein
+  float fogBase = 0;  // m along +y; up to this height the air has the given extinction
+  float fogHeight =
+      0;  // m; above fogBase the density falls by the factor e in this height; 0: it does not fall
+  std::optional<DensityGrid> grid;  // multiplies the extinction
 };
 
 }  // namespace nephroid

@@ -1,5 +1,5 @@
-// What exists: plain structs that refer to each other by index. Metres, degrees, seconds; right-handed, +Y
-// up; linear Rec. 709.
+// The scene: plain structs that refer to each other by index. Units are meters, degrees and seconds. Axes are
+// right-handed with +Y up. Colors are linear Rec. 709.
 #pragma once
 
 #include <filesystem>
@@ -28,12 +28,13 @@ struct Camera {
 };
 
 struct Environment {
-  vec3 ambient{0};     // lux, on every receiver, from all around
+  vec3 ambient{0};     // lux, on every receiver, from all directions
   vec3 background{0};  // nit
   bool operator==(const Environment&) const = default;
 };
 
-// Linear Rec. 709 RGBA, row 0 at the top; texture coordinate (0, 0) is the upper left corner, as in glTF.
+// RGBA in linear Rec. 709, [row * width + column], row 0 at the top. The texture coordinate (0, 0) is the
+// upper left corner, as in glTF.
 struct Texture {
   std::string name;
   uint32_t width = 0;
@@ -41,7 +42,7 @@ struct Texture {
   std::vector<vec4> texels;
 };
 
-// Of an index of refraction.
+// Limits of an index of refraction.
 inline constexpr double kLowestIor = 0.1, kHighestIor = 10;
 
 enum class MaterialType { diffuse, dielectric, mirror };
@@ -54,9 +55,9 @@ struct Material {
   vec3 emission{0};               // nit
   vec3 ior{1.5f};                 // per channel; equal channels: no dispersion
   float dispersion = 0;      // 20 / Abbe number (KHR_materials_dispersion); `ior` already follows from it
-  vec3 attenuationColor{1};  // what is left after attenuationDistance
+  vec3 attenuationColor{1};  // transmittance (0..1) after attenuationDistance
   float attenuationDistance = std::numeric_limits<float>::infinity();  // m
-  vec3 scattering{0};  // 1/m, in a dielectric's volume, besides what that absorbs
+  vec3 scattering{0};  // 1/m, inside a dielectric, in addition to absorption
   PhaseType phase = PhaseType::isotropic;
   float g = 0;  // Henyey-Greenstein
   bool thinWalled =
@@ -77,8 +78,8 @@ struct Object {
 
 inline constexpr uint32_t kLargestSensorSide = 16384;  // texels
 
-// An illuminance meter. Texel (column i, row j) spans u (i..i+1)/width and v (j..j+1)/height from `corner`;
-// faces cross(v, u).
+// An illuminance meter. The texel in column i and row j covers u (i..i+1)/width and v (j..j+1)/height from
+// `corner` (m). It faces cross(v, u).
 struct Sensor {
   std::string name;
   vec3 corner{0};
@@ -90,7 +91,7 @@ struct Sensor {
 
 struct Scene {
   std::filesystem::path file;
-  double time = 0;  // s; what moves by itself stands as it is at this time
+  double time = 0;  // s, for everything that moves by itself
   Camera camera;
   Environment environment;
   std::vector<Texture> textures;

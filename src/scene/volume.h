@@ -1,4 +1,4 @@
-// What fills a dielectric object, as optics/ computes it.
+// The medium inside a dielectric object, computed with the functions of optics/.
 #pragma once
 
 #include "optics/phase.h"
@@ -7,7 +7,7 @@
 
 namespace nephroid {
 
-// kPhase...
+// The shaders' constant (kPhase...) of a phase function.
 inline uint phaseCode(PhaseType type) {
   switch (type) {
     case PhaseType::henyeyGreenstein:
@@ -27,14 +27,14 @@ inline bool scatters(const Material& material) {
   return hasVolume(material) && material.scattering != vec3(0);
 }
 
-// 1/m: what it absorbs and what it scatters.
+// Extinction (1/m): absorption and scattering.
 inline vec3 extinctionOf(const Material& material) {
   if (!hasVolume(material)) return vec3(0);
   return material.scattering -
          glm::log(glm::max(material.attenuationColor, vec3(1e-30f))) * material.inverseAttenuationDistance();
 }
 
-// What a length (m) of it leaves of light.
+// The transmittance (0..1 per channel) of a length (m) of it.
 inline vec3 transmittanceOf(const Material& material, float length) {
   const vec3 left =
       volumeTransmittance(material.attenuationColor, material.inverseAttenuationDistance(), length);

@@ -1,4 +1,4 @@
-// Several techniques as one, each with casters of its own.
+// A technique that consists of several techniques, each for its own casters.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,8 @@ class CompositeTechnique final : public Technique {
  public:
   explicit CompositeTechnique(std::vector<std::unique_ptr<Technique>> parts);
 
-  // A trait that asks for more work is there where any part has it; one that saves work, where all have it.
+  // A trait that needs more work is set where any part has it; a trait that saves work is set where all parts
+  // have it.
   TechniqueTraits traits() const override;
   void reserve(uvec2 size) override;
   void update(GpuScene& gpuScene) override;

@@ -1,4 +1,4 @@
-// Where in a scene something is computed, to be drawn over its picture.
+// A grid in the scene on which something is computed; the viewer draws it over the picture.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
-// Every technique by the TechniqueInfo that its folder exports. The first is used where none is named.
+// The list of techniques: the TechniqueInfo that each folder exports. The first one is the default.
 #pragma once
 
-// Of a program that is linked with a registry of its own; this library has none.
+// For programs that are built with their own registry; this library adds no techniques here.
 #ifndef NEPHROID_FURTHER_TECHNIQUES
 #define NEPHROID_FURTHER_TECHNIQUES(TECHNIQUE)
 #endif

@@ -1,5 +1,4 @@
-// What is left out of what the reference computes, in words for a user: behind `nephroid info` and the
-// reports.
+// Descriptions of what techniques leave out and the reference computes, for `nephroid info` and the reports.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +10,7 @@ namespace nephroid {
 
 struct Omission {
   const char* what;                      // a sentence's subject: "Shafts of light in the air"
-  bool (*concerns)(const Scene& scene);  // whether a scene has what it is about
+  bool (*concerns)(const Scene& scene);  // whether it matters for a scene
 };
 
 // Whether one of a scene's objects has a material that passes the test.
@@ -29,7 +28,7 @@ bool hasNearLight(const Scene& scene);     // a caster, and a light that is not 
 bool hasWaterOrSheet(const Scene& scene);  // water, or sheets too thin to bend light
 bool hasScattering(const Scene& scene);    // in water or glass
 
-// What several techniques leave out.
+// Omissions that several techniques have.
 namespace omissions {
 
 inline constexpr Omission kReflection{
@@ -47,7 +46,7 @@ inline constexpr Omission kPlaneDetail{
     "Detail between the rays of a caster's vertices, and finer than a texel of the virtual planes",
     hasCaster};
 inline constexpr Omission kScattering{"Light that water and glass scatter inside", hasScattering};
-// Of light volumes, which draw what water scatters.
+// For light volumes, which draw light that water scatters.
 inline constexpr Omission kScatteringAside{
     "What glass scatters inside, and what water scatters of light that met no surface before; what water "
     "scatters, where mirrors and other glass show it, and where its surface reflects a part of it",

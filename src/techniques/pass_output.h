@@ -1,4 +1,4 @@
-// What a pass leaves behind, for who wants to look at it.
+// An image that a pass wrote, for the viewer to show.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@
 namespace nephroid {
 
 struct PassOutput {
-  std::string pass;  // as the frame's times name it
+  std::string pass;  // as in the frame's times
   std::string name;  // "normals"
   const gpu::Image* image = nullptr;
   uint32_t meaning = kShowPicture;
-  float scale = 1;  // as ShowConstants has it
+  float scale = 1;  // as in ShowConstants
 };
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// All that a user may choose about how caustics are made: which technique, and the settings of each owner.
+// The technique and all settings for caustics that a user may choose.
 #pragma once
 
 #include <filesystem>
@@ -11,27 +11,28 @@
 
 namespace nephroid {
 
-// The name of the technique that is used where none is named: the first of the registry.
+// The default technique: the name of the first one in the registry.
 const char* defaultTechnique();
 
 struct TechniqueSettings {
   std::string technique = defaultTechnique();
   TransportSettings transport;
   BeamDivision beams;
-  OwnSettings own;              // of the techniques, by the types of their structs
-  std::filesystem::path baked;  // what `nephroid bake` wrote for the technique; empty: the cache is used
+  OwnSettings own;  // the settings of each technique
+  std::filesystem::path
+      baked;  // the file that `nephroid bake` wrote for the technique; empty: the cache is used
   bool operator==(const TechniqueSettings&) const = default;
 };
 
-// Those of transport and beams, then those of every technique; a struct that several techniques share comes
-// once.
+// All settings: of transport and beams, then of every technique. A struct that several techniques share is
+// listed once.
 std::vector<SettingsView> allSettings(TechniqueSettings& settings);
 
-// Those that the chosen technique uses.
+// The settings that the chosen technique uses.
 std::vector<SettingsView> usedSettings(TechniqueSettings& settings);
 
-// Those that the chosen technique's transport is made with: a baked file is its tables, unless the technique
-// bakes something of its own.
+// The transport settings for the chosen technique. A baked file holds transport tables, unless the technique
+// has its own kind of file.
 TransportSettings transportOf(const TechniqueSettings& settings);
 
 }  // namespace nephroid

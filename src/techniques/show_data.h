@@ -1,4 +1,4 @@
-// What showing a pass's image is told, for C++ and GLSL.
+// The constants of the pass that shows an image, for C++ and GLSL.
 #ifndef NEPHROID_TECHNIQUES_SHOW_DATA_H
 #define NEPHROID_TECHNIQUES_SHOW_DATA_H
 

@@ -1,4 +1,4 @@
-// How outgoing beams become light on receivers.
+// The interface of techniques, which draw caustics.
 #pragma once
 
 #include <functional>
@@ -12,43 +12,44 @@
 
 namespace nephroid {
 
-// Where receivers' light is asked for: a camera's pixels or a sensor's texels. Both images are of one size.
+// The points of receivers for which light is computed: a camera's pixels or a sensor's texels. Both images
+// have the same size.
 struct ReceiverPoints {
   const gpu::Image* position = nullptr;  // rgba32f: world m; a = 1 where there is a receiver, else 0
   const gpu::Image* normal = nullptr;    // rgba32f: unit, on the side of the viewer or sensor
-  std::optional<gpu::Region> region{};   // of the images that is asked for; all of them without it
+  std::optional<gpu::Region> region{};   // the part of the images to compute; without it, all
 };
 
-// Lines of sight through the volume of one object. Images are of the picture's size.
+// The parts of view rays inside one object. Images are of the picture's size.
 struct WaysOfSight {
   const gpu::Image* start = nullptr;  // rgba32f: m; a = length (m), 0 where there is none
-  // rgba32f: rg = direction away from the eye, octahedral; b = the part of light from `start` that comes to
-  // the eye, without what is taken by a m in the volume before it.
+  // rgba32f. rg: the direction away from the eye, octahedral. b: the part of light from `start` that comes to
+  // the eye, without the extinction in the volume before it. a: the length (m) in the volume before `start`.
   const gpu::Image* direction = nullptr;
   uint32_t object = 0;
   std::optional<gpu::Region> region{};  // outside there are none
 };
 
-// A pass that adds to `causticsLux` at those points what `draw` draws with whole_picture.vert.
+// Records a pass that adds the result of `draw`, which uses whole_picture.vert, to `causticsLux`.
 void drawCaustics(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& causticsLux,
                   const std::function<void()>& draw);
 
-// What a program that uses a technique has to know of it.
+// Properties of a technique that its users need.
 struct TechniqueTraits {
-  // What `update` makes depends on where the camera stands.
+  // The result of `update` depends on the camera's position.
   bool followsCamera = false;
-  // Light goes in beams, which can be shown.
+  // It uses beams, which the viewer can show.
   bool usesBeams = false;
-  // What `shade` adds is the mean over a point's square of the receiver, out to half way to its neighbors,
-  // and not what its center gets.
+  // `shade` adds the mean over a square of the receiver around each point, half way to its neighbors, and not
+  // the value at the point.
   bool coversSquares = false;
   // It draws caustics, so that a sensor can be measured.
   bool drawsCaustics = true;
 };
 
-// One frame is update, record, then shade for each view. The first two may be left out while all that they
-// depend on stands still. Whoever implements it alone derives from TechniqueBase, which has what most do; all
-// is pure here, so that the compiler refuses a technique made of others that forgets to pass something on.
+// For each frame: call update, record, then shade for each view. The first two may be left out where nothing
+// that they depend on has changed. Most techniques derive from TechniqueBase, which has defaults. Here all
+// functions are pure, so that a technique that consists of others cannot forget to pass one on.
 class Technique {
  public:
   Technique() = default;
@@ -58,38 +59,38 @@ class Technique {
 
   virtual TechniqueTraits traits() const = 0;
 
-  // Before all else, and when they change: the images of points that `shade` will be asked for are of this
-  // size, in pixels.
+  // Sets the size (pixels) of the images of points for `shade`. To be called first, and when the size
+  // changes.
   virtual void reserve(uvec2 size) = 0;
 
-  // What the host does in a frame: rays, beams, planes, of the scene that the technique's transport was
-  // placed in. Nothing is in use by the device.
+  // The host's work for a frame: rays, beams and planes, for the scene in which the technique's transport was
+  // placed. The device must not be using anything of this object.
   virtual void update(GpuScene& gpuScene) = 0;
 
-  // What the device does that no view has a part in.
+  // The device's work that does not depend on a view.
   virtual void record(gpu::CommandList& commands, GpuScene& gpuScene) = 0;
 
-  // Of the last frame: where in the scene it is computed, and what passes of its own left behind.
+  // Of the last frame: the grids of the computation, and the outputs of the technique's passes.
   virtual std::vector<Lattice> lattices() const = 0;
   virtual std::vector<PassOutput> outputs() const = 0;
 
-  // After the device has done a frame's work. False where a list turned out too short, and is longer now:
-  // each view is to be shaded again.
+  // To be called after the device has finished a frame. Returns false where a list was too short; it is
+  // longer now, and each view has to be shaded again.
   virtual bool finish() = 0;
 
-  // Adds to `causticsLux` (rgba32f, the size of the points) the illuminance (lux) on each receiver point by
-  // light that met a caster, in the region asked for. May be called several times a frame. Synchronized with
-  // all before it; what it records is named by passes of its own.
+  // Adds the illuminance (lux) by light that met a caster to `causticsLux` (rgba32f, of the same size as the
+  // points' images), for each receiver point of the region. May be called several times in a frame. It
+  // records its own passes, which see the results of everything before.
   virtual void shade(gpu::CommandList& commands, const ReceiverPoints& points,
                      const gpu::Image& causticsLux) = 0;
 
-  // Adds to `luminance` (nit, rgba32f) what the object scatters on these ways toward the eye, once, of light
-  // that met a caster. After `record`, in passes of its own.
+  // Adds to `luminance` (nit, rgba32f) the light that met a caster and that the object scatters toward the
+  // eye along these rays (single scattering). To be called after `record`; records its own passes.
   virtual void scatter(gpu::CommandList& commands, const WaysOfSight& ways, const gpu::Image& luminance) = 0;
 };
 
-// A technique that keeps nothing for the size of a picture, shows nothing of itself, never runs out of room
-// and scatters nothing, unless it says otherwise.
+// Defaults for a technique: nothing depends on the size of a picture, nothing is shown in the viewer, lists
+// are never too short, and nothing scatters.
 class TechniqueBase : public Technique {
  public:
   void reserve(uvec2 /*size*/) override {}

@@ -1,4 +1,4 @@
-// What a technique's folder exports: all that the rest of the program has to know of it.
+// The description that a technique's folder exports.
 #pragma once
 
 #include <filesystem>
@@ -18,27 +18,27 @@
 
 namespace nephroid {
 
-// What a technique is made with. All outlive it.
+// What a technique is made from. Everything must outlive the technique.
 struct TechniqueContext {
   gpu::Device& device;
   const TechniqueSettings& settings;
   SceneTransport& transport;
-  Stats& stats;  // a technique sets counts of its own in it, and leaves the others
+  Stats& stats;  // a technique sets its own counts here, and does not change others
   Casters casters = Casters::all;
 };
 
-// What of a scene a preparation is made of and hands may change.
+// The parts of a scene that a preparation depends on and that a user may change.
 struct PreparedParts {
   std::span<const Material> materials;
   std::span<const Placement> placements;  // of the objects
 };
 
-// A file of `nephroid bake`.
+// What `nephroid bake` was asked to write.
 struct BakeRequest {
   std::filesystem::path scene;  // for messages
   std::filesystem::path output;
-  uint32_t first = 0;         // of the parts that are baked, where a bake can be done in parts
-  uint32_t end = UINT32_MAX;  // past the last of them
+  uint32_t first = 0;         // the first part to bake, where a bake can be done in parts
+  uint32_t end = UINT32_MAX;  // one after the last part
 };
 
 struct TechniqueBake {
@@ -57,26 +57,25 @@ struct TechniqueInfo {
   TechniqueTraits traits;
   // Its own settings. Those of transport and of beams are every technique's.
   std::span<const SettingsOwner> settings{};
-  // What it leaves out of what the reference computes, besides what the frame does.
+  // What it leaves out, in addition to omissionsOfFrame().
   std::span<const Omission> omissions{};
-  // What it is made of, where it chooses among others; their settings are its own too.
+  // The techniques that it consists of, if any. It has their settings too.
   std::span<const TechniqueInfo* const> parts{};
 
-  // What takes long before a first frame, on a thread of its own; null: nothing does.
+  // Does the long work before a first frame; called on its own thread. Null: there is none.
   void (*prepare)(const Scene& scene, SceneTransport& transport, const TechniqueSettings& settings,
                   Progress& progress) = nullptr;
-  // Whether what was prepared for `before` can draw `after`; null: always.
+  // Whether the preparation for `before` can be used for `after`; null: always.
   bool (*isStillPrepared)(const PreparedParts& before, const PreparedParts& after,
                           const TechniqueSettings& settings) = nullptr;
-  // What `nephroid bake` writes for it, and --baked gives back to it; without one, light transport tables.
+  // How `nephroid bake` writes its file. Without one, the file has light transport tables.
   TechniqueBake bake{};
-  // Whether these settings ask `measure` for beams cut by the sensor's own plane in place of planes; null: no
-  // settings do.
+  // Whether `measure` uses beams that are cut at the sensor's own plane, in place of virtual planes, with
+  // these settings; null: never.
   bool (*isInSensorPlane)(const TechniqueSettings& settings) = nullptr;
 };
 
-// For a technique that takes its rays from the scene's transport: makes the source, and says whether it
-// holds.
+// `prepare` and `isStillPrepared` for a technique that takes its rays from the scene's transport.
 void prepareTransport(const Scene& scene, SceneTransport& transport, const TechniqueSettings& settings,
                       Progress& progress);
 bool isTransportStillPrepared(const PreparedParts& before, const PreparedParts& after,

@@ -1,4 +1,4 @@
-// What light, or sight, is inside of.
+// The transparent objects around a point of a path.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace nephroid {
 
-// The transparent objects around a point, by index. Where several overlap, the one that encloses the least
-// volume fills the point: a bubble its glass, and a wall of glass the water that reaches into it.
+// The transparent objects around a point, by index. Where several overlap, the medium at the point is that of
+// the object with the smallest volume: a bubble within glass is air, and glass that stands in water is glass.
 struct MediumStack {
   std::array<uint32_t, 8> objects{};  // by volume, the smallest last
   std::array<float, 8> volumes{};     // m3
@@ -18,15 +18,15 @@ struct MediumStack {
   // The object whose material is here; kNone for air.
   uint32_t top() const { return size ? objects[size - 1] : kNone; }
   bool contains(uint32_t object) const;
-  // `volume` (m3) as RayScene::enclosedVolume.
+  // `volume`: m3, RayScene::enclosedVolume of the object.
   void enter(uint32_t object, float volume);
   void leave(uint32_t object);
 };
 
-// The closed transparent objects around a point. `materials`: of each object.
+// Finds the closed transparent objects around a point. `materials`: one for each object.
 MediumStack mediaAround(const RayScene& rays, std::span<const Material* const> materials, vec3 point);
 
-// The material of every object of a scene, which must outlive them.
+// The material of each object. The scene must outlive the result.
 std::vector<const Material*> materialsOf(const Scene& scene);
 
 }  // namespace nephroid

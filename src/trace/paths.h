@@ -1,15 +1,15 @@
-// Which ways light is followed.
+// Which paths of light are followed.
 #pragma once
 
 #include <array>
 
 namespace nephroid {
 
-// transmission: refraction alone; light that would be totally reflected is lost. all: reflection outside and
-// inside as well.
+// transmission: only refraction; light that is totally reflected is lost. all: also reflection outside and
+// inside casters.
 enum class Paths { transmission, all };
 
-// What users call them.
+// The users' names, in the same order.
 inline constexpr std::array<const char*, 2> kPathsNames{"transmission", "all"};
 constexpr const auto& namesOf(Paths) {
   return kPathsNames;

@@ -234,24 +234,24 @@ struct RayScene::Impl {
   }
 };
 
-RayScene::RayScene(const Mesh& mesh) : impl(std::make_unique<Impl>()) {
+RayScene::RayScene(const Mesh& mesh) : impl_(std::make_unique<Impl>()) {
   checkMesh(mesh, "mesh \"" + mesh.name + "\"");
-  impl->addMesh(mesh);
-  impl->objects.emplace_back(0, Placement{});
-  impl->updateExtent();
+  impl_->addMesh(mesh);
+  impl_->objects.emplace_back(0, Placement{});
+  impl_->updateExtent();
 }
 
-RayScene::RayScene(const Scene& scene) : impl(std::make_unique<Impl>()) {
+RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   checkScene(scene);
-  for (const Mesh& mesh : scene.meshes) impl->addMesh(mesh);
-  impl->top.reset(rtcNewScene(impl->device.get()));
-  rtcSetSceneFlags(impl->top.get(), RTC_SCENE_FLAG_ROBUST);
+  for (const Mesh& mesh : scene.meshes) impl_->addMesh(mesh);
+  impl_->top.reset(rtcNewScene(impl_->device.get()));
+  rtcSetSceneFlags(impl_->top.get(), RTC_SCENE_FLAG_ROBUST);
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {
-    RTCGeometry instance = rtcNewGeometry(impl->device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(instance, impl->meshes[scene.objects[i].mesh].scene.get());
-    rtcAttachGeometryByID(impl->top.get(), instance, i);
+    RTCGeometry instance = rtcNewGeometry(impl_->device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, impl_->meshes[scene.objects[i].mesh].scene.get());
+    rtcAttachGeometryByID(impl_->top.get(), instance, i);
     rtcReleaseGeometry(instance);
-    impl->instances.push_back(instance);
+    impl_->instances.push_back(instance);
   }
   place(scene);
 }
@@ -261,36 +261,36 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
 
 void RayScene::reshape(uint32_t mesh) {
-  impl->reshape(mesh);
+  impl_->reshape(mesh);
 }
 
 void RayScene::place(const Scene& scene) {
-  impl->objects.clear();
+  impl_->objects.clear();
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    impl->objects.emplace_back(object.mesh, object.placement);
+    impl_->objects.emplace_back(object.mesh, object.placement);
     const mat3 linear = glm::mat3_cast(object.placement.rotation) * object.placement.scale;
     const glm::mat4x3 transform(linear[0], linear[1], linear[2], object.placement.translation);
-    rtcSetGeometryTransform(impl->instances[i], 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &transform[0].x);
-    rtcCommitGeometry(impl->instances[i]);
+    rtcSetGeometryTransform(impl_->instances[i], 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &transform[0].x);
+    rtcCommitGeometry(impl_->instances[i]);
   }
-  rtcCommitScene(impl->top.get());
-  impl->updateExtent();
+  rtcCommitScene(impl_->top.get());
+  impl_->updateExtent();
 }
 
 bool RayScene::intersect(const Ray& ray, Hit& hit) const {
   countRays(1);
   RTCRayHit query = embreeQuery(ray);
-  embreeIntersect(impl->root(), query);
+  embreeIntersect(impl_->root(), query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  impl->describe(query, hit);
+  impl_->describe(query, hit);
   return true;
 }
 
 bool RayScene::occluded(const Ray& ray) const {
   countRays(1);
   RTCRay query = embreeRay(ray);
-  embreeOccluded(impl->root(), query);
+  embreeOccluded(impl_->root(), query);
   return query.tfar < 0;
 }
 
@@ -314,26 +314,26 @@ void RayScene::occluded(vec3 origin, std::span<const vec3> directions, float nea
       rays.tfar[i] = std::numeric_limits<float>::infinity();
       rays.mask[i] = ~0u;
     }
-    embreeOccluded(impl->root(), valid, rays);
+    embreeOccluded(impl_->root(), valid, rays);
     for (std::size_t i = 0; i < count; ++i) isOccluded[first + i] = rays.tfar[i] < 0;
   }
 }
 
 float RayScene::selfIntersectionDistance() const {
-  return kSelfIntersectionFraction * impl->extent;
+  return kSelfIntersectionFraction * impl_->extent;
 }
 
 uint32_t RayScene::patchOf(uint32_t mesh, uint32_t triangle) const {
-  return impl->meshes[mesh].triangles[triangle].patch;
+  return impl_->meshes[mesh].triangles[triangle].patch;
 }
 
 bool RayScene::isClosed(uint32_t object) const {
-  return impl->meshes[impl->objects[object].mesh].mesh->isClosed;
+  return impl_->meshes[impl_->objects[object].mesh].mesh->isClosed;
 }
 
 float RayScene::enclosedVolume(uint32_t object) const {
-  const Impl::TracedObject& traced = impl->objects[object];
-  return impl->meshes[traced.mesh].volume * traced.scale * traced.scale * traced.scale;
+  const Impl::TracedObject& traced = impl_->objects[object];
+  return impl_->meshes[traced.mesh].volume * traced.scale * traced.scale * traced.scale;
 }
 
 Ray RayScene::leaving(const Hit& hit, vec3 direction) const {
@@ -343,8 +343,8 @@ Ray RayScene::leaving(const Hit& hit, vec3 direction) const {
 }
 
 Ray RayScene::leavingTriangle(const Hit& hit, vec3 direction) const {
-  const Impl::TracedObject& object = impl->objects[hit.object];
-  const Impl::TracedMesh& traced = impl->meshes[object.mesh];
+  const Impl::TracedObject& object = impl_->objects[hit.object];
+  const Impl::TracedMesh& traced = impl_->meshes[object.mesh];
   Ray ray = leaving(hit, direction);
   if (!traced.mesh->isCurved) return ray;
   const mat3& positions = traced.triangles[hit.triangle].positions;
@@ -360,7 +360,7 @@ std::size_t RayScene::replay(std::span<const Ray> rays) const {
       [&](const IndexRange& range, std::size_t hits) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           RTCRayHit query = embreeQuery(rays[i]);
-          embreeIntersect(impl->root(), query);
+          embreeIntersect(impl_->root(), query);
           hits += query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
         }
         return hits;

@@ -1,4 +1,4 @@
-// What a ray hits. Embree behind a plain face; nothing else includes it.
+// Traces rays with Embree. Only this file's .cpp includes Embree.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Hit {
   float distance = 0;       // m
   uint32_t object = kNone;  // index into Scene::objects, or 0 for a scene of one mesh
   uint32_t triangle = 0;
-  uint32_t patch = 0;       // smooth surface of the mesh the triangle belongs to
+  uint32_t patch = 0;       // number of the smooth surface that the triangle belongs to
   vec2 barycentric{0};      // weights of the triangle's second and third corner
   vec3 position{0};         // on the curved surface where the mesh has one
   vec3 flatPosition{0};     // on the triangle
@@ -30,7 +30,8 @@ struct Hit {
   vec3 geometricNormal{0};  // unit, outward by winding
 };
 
-// Immutable but for placements and shapes; safe to trace from many threads.
+// The geometry of a scene for rays. Several threads may trace at the same time, but not during `place` and
+// `reshape`.
 class RayScene {
  public:
   // One mesh in its own space, as object 0. The mesh must outlive this. Throws InputError as checkMesh does.
@@ -41,50 +42,51 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
   ~RayScene();
 
-  // Moves the objects to where `scene`, with the same meshes, has them now; rebuilds only what lies above the
-  // meshes.
+  // Takes the placements of `scene`, which must have the same meshes. Rebuilds only the top level of the
+  // acceleration structure.
   void place(const Scene& scene);
 
-  // A mesh of the scene, whose triangles join the same vertices as before, has other places and normals now.
-  // To be followed by `place`.
+  // Takes new positions and normals of a mesh of the scene, whose triangles are the same as before. To be
+  // followed by `place`.
   void reshape(uint32_t mesh);
 
   bool intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;
-  // Whether rays from one origin along each of `directions` meet anything: eight at a time, which is faster.
+  // Whether rays from one origin along each of `directions` (unit) meet anything. Traces eight rays at a
+  // time, which is faster. `isOccluded`: 0 or 1 for each direction.
   void occluded(vec3 origin, std::span<const vec3> directions, float nearDistance,
                 std::span<uint8_t> isOccluded) const;
 
-  // m: rays that leave a surface start this far along, so that they do not meet it again. Grows with the
-  // scene's extent.
+  // The distance (m) from a surface at which rays begin, so that they do not meet this surface again. It
+  // grows with the size of the scene.
   float selfIntersectionDistance() const;
 
-  // Smooth surface that a triangle of a mesh (its index in the scene) belongs to.
+  // The number of the smooth surface of a triangle. `mesh`: index in the scene.
   uint32_t patchOf(uint32_t mesh, uint32_t triangle) const;
 
-  // Whether an object's mesh bounds a volume, so that a ray inside must come out again.
+  // Whether the object's mesh is closed, so that a ray inside must come out again.
   bool isClosed(uint32_t object) const;
 
-  // m3 within an object's mesh; infinite where the mesh is open, as that of water.
+  // The volume (m3) of the object's mesh; infinite where the mesh is open, as for water.
   float enclosedVolume(uint32_t object) const;
 
-  // The ray that goes on along `direction` from where `hit` is on the curved surface: its line begins on the
-  // flat triangle that was traced.
+  // The ray that leaves the surface at `hit` along `direction` (unit). It goes through the point on the
+  // curved surface, but it begins on the flat triangle that was traced.
   Ray leaving(const Hit& hit, vec3 direction) const;
-  // The same from no farther than the rim of the triangle, for paths that keep count of what they are inside
-  // of: beyond it a ray would begin outside of the mesh, or inside, where it should not.
+  // The same, but the ray begins within the triangle. For paths that count the objects that they are inside
+  // of: beyond the triangle's edge a ray might begin on the wrong side of the mesh.
   Ray leavingTriangle(const Hit& hit, vec3 direction) const;
 
-  // The bare loop every ray rate is held against: nothing but Embree's closest hit, in parallel. Returns how
-  // many rays hit.
+  // Traces rays with Embree's closest hit and nothing else, in parallel, as a measure for ray rates. Returns
+  // the number of rays that hit.
   std::size_t replay(std::span<const Ray> rays) const;
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl;
+  std::unique_ptr<Impl> impl_;
 };
 
-// Rays traced by this process so far, all scenes together.
+// The number of rays that this process has traced, in all scenes.
 uint64_t raysTraced();
 
 }  // namespace nephroid

@@ -28,7 +28,7 @@ vec3 facingNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
 }  // namespace
 
 Follower::Follower(const RayScene& rayScene, std::vector<const Material*> materialOfObject)
-    : rays(rayScene), materials(std::move(materialOfObject)) {}
+    : rays_(rayScene), materials_(std::move(materialOfObject)) {}
 
 namespace {
 
@@ -120,7 +120,7 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
   hit.normal = entry.normal;
   hit.geometricNormal = entry.geometricNormal;
   for (uint32_t crossing = 0; crossing < kMaximumCrossings; ++crossing) {
-    const Material& material = *materials[hit.object];
+    const Material& material = *materials_[hit.object];
     const bool entering = dot(ray.direction, hit.geometricNormal) < 0;
     const vec3 normal = facingNormal(ray.direction, hit.normal, hit.geometricNormal);
     ray.position = hit.position;
@@ -130,19 +130,19 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
       ray.signature = extendSignature(ray.signature, hit.object, hit.patch, Event::reflected);
     } else if (material.thinWalled) {
       crossThinWall(material, settings, hit.object, hit.patch, normal, walk);
-    } else if (!crossDielectric(materials, settings, hit, rays.enclosedVolume(hit.object), normal, entering,
+    } else if (!crossDielectric(materials_, settings, hit, rays_.enclosedVolume(hit.object), normal, entering,
                                 walk)) {
       ray.flags |= kRayLost;
       return ray;
     }
-    const bool goesOn = rays.intersect(rays.leaving(hit, ray.direction), hit);
-    if (goesOn && materials[hit.object]->isCaster()) {
-      absorb(materials, hit.distance, walk);
+    const bool goesOn = rays_.intersect(rays_.leaving(hit, ray.direction), hit);
+    if (goesOn && materials_[hit.object]->isCaster()) {
+      absorb(materials_, hit.distance, walk);
       continue;
     }
     if (goesOn) ray.reach = hit.distance;
-    if (settings.isSight) absorb(materials, goesOn ? hit.distance : kFarthestSight, walk);
-    const bool leaked = !goesOn && walk.media.top() != kNone && rays.isClosed(walk.media.top());
+    if (settings.isSight) absorb(materials_, goesOn ? hit.distance : kFarthestSight, walk);
+    const bool leaked = !goesOn && walk.media.top() != kNone && rays_.isClosed(walk.media.top());
     const bool planUnfulfilled = (settings.reflections >> walk.choices) != 0;
     if (leaked || planUnfulfilled) ray.flags |= kRayLost;
     return ray;
@@ -152,7 +152,7 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
 }
 
 MediumStack Follower::mediaAround(vec3 point) const {
-  return nephroid::mediaAround(rays, materials, point);
+  return nephroid::mediaAround(rays_, materials_, point);
 }
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// Light followed through everything transparent or mirroring until it meets something opaque or nothing.
+// Follows light through casters until it meets an opaque surface or leaves the scene.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace nephroid {
 
-// Boundaries a ray may cross before it is given up as trapped.
+// The most boundaries that a ray may meet. After that it counts as trapped.
 inline constexpr uint32_t kMaximumCrossings = 48;
 
 struct FollowSettings {
   uint32_t channel = 0;
   Paths paths = Paths::transmission;
   uint32_t reflections = 0;  // as TransportQuery
-  // As TransportQuery: what is followed against the light is radiance, which changes with the square of the
-  // index (Veach 1997, 5.2); and it ends on a receiver, up to which it is absorbed.
+  // As in TransportQuery. A view ray carries radiance, which changes with the square of the index of
+  // refraction (Veach 1997, 5.2). It ends on a receiver, and is absorbed up to there.
   bool isSight = false;
 };
 
@@ -26,19 +26,18 @@ class Follower {
   // One material for every object of `rays`; both must outlive this.
   Follower(const RayScene& rays, std::vector<const Material*> materials);
 
-  // What becomes of light that travels along `direction` and meets `entry` on `object`, in the media of
-  // `media`.
+  // Follows light that travels along `direction` (unit) inside `media` and meets `object` at `entry`.
   OutgoingRay follow(const SurfacePoint& entry, uint32_t object, vec3 direction, MediumStack media,
                      const FollowSettings& settings) const;
 
-  // The closed transparent objects around a point.
+  // The closed transparent objects around a point (m).
   MediumStack mediaAround(vec3 point) const;
 
-  const RayScene& rayScene() const { return rays; }
+  const RayScene& rayScene() const { return rays_; }
 
  private:
-  const RayScene& rays;
-  std::vector<const Material*> materials;
+  const RayScene& rays_;
+  std::vector<const Material*> materials_;
 };
 
 }  // namespace nephroid

@@ -1,4 +1,5 @@
-// How a caster passes light on: what every transport source answers, and all that comes after it knows.
+// The outgoing ray: the result of every transport source, and the only thing that later stages know about the
+// transport.
 #ifndef NEPHROID_TRANSPORT_OUTGOING_RAY_H
 #define NEPHROID_TRANSPORT_OUTGOING_RAY_H
 
@@ -6,23 +7,24 @@
 
 SHARED_BEGIN
 
-SHARED_CONSTANT uint kRayOccluded =
-    1u;  // something stands between the light and the point where it would enter
-SHARED_CONSTANT uint kRayLost =
-    2u;  // never transmitted: totally reflected or trapped; position and direction are its last
+// Something stands between the light and the point where it would enter.
+SHARED_CONSTANT uint kRayOccluded = 1u;
+// The light never leaves the caster: it is totally reflected or trapped. Position and direction are the last
+// ones.
+SHARED_CONSTANT uint kRayLost = 2u;
 
-// `reach` of a ray that meets no opaque surface, or whose source does not know (a table knows the caster
-// alone).
+// `reach` of a ray that meets no opaque surface, or where the source does not know it (a table contains only
+// the caster).
 SHARED_CONSTANT float kUnboundedReach = 1e30f;
 
-// Where and how light that meets a caster at one point of its surface leaves it for the last time. World
-// space.
+// The ray along which light leaves a caster for the last time, for light that meets the caster at one point.
+// World space.
 struct OutgoingRay {
   vec3 position;       // m
   float pathLength;    // m inside the caster
   vec3 direction;      // unit
   uint flags;          // kRay...; 0: the ray carries light
-  vec3 transmittance;  // Fresnel (unpolarised), absorption and mirror colour together
+  vec3 transmittance;  // 0..1 per channel: Fresnel (unpolarized), absorption and mirror color
   uint signature;      // equal for rays that crossed the same sequence of smooth surfaces
   float reach;         // m from `position` to the first opaque surface
 };

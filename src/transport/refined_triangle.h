@@ -1,5 +1,5 @@
-// Triangles of a caster's mesh, cut in four where the rays of their corners do not tell what goes on between
-// them: for light's rays (beams) and for sight's.
+// Refines triangles of a caster's mesh: cuts them into four where the rays of the corners do not represent
+// the rays between them. Used for beams and for view rays.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@ namespace nephroid {
 
 // A triangle of a caster's mesh. World space.
 struct CasterTriangle {
-  mat3 positions{1};  // a corner a column
+  mat3 positions{1};  // m, one column for each corner
   mat3 normals{1};
   vec3 geometricNormal{0};  // unit
   bool isCurved = false;
 
-  // `cornersOf`, `normalsOf`: a corner a column.
+  // Both matrices have one column for each corner.
   CasterTriangle(const mat3& cornersOf, const mat3& normalsOf, bool curved)
       : positions(cornersOf), normals(normalsOf), isCurved(curved) {
     const vec3 doubledArea = cross(positions[1] - positions[0], positions[2] - positions[0]);
@@ -35,26 +35,27 @@ struct CasterTriangle {
   }
 };
 
-// Barycentric, of the middle of a part of a triangle, from those of its corners.
+// The barycentric weights of the middle of a part of a triangle.
 template <class Corner>
 vec3 middleWeights(const std::array<Corner, 3>& t) {
   return (t[0].weights + t[1].weights + t[2].weights) / 3.0f;
 }
 
-// What is to become of a triangle before the rays at the middles of its sides are known.
+// The decision about a triangle before the rays at the middles of its sides are known.
 enum class Refining {
-  done,        // it has been dealt with
+  done,        // nothing more to do
   cut,         // into four
-  askMiddles,  // into four, unless the middles tell nothing new
+  askMiddles,  // trace the rays at the middles of the sides, and cut into four unless they are as expected
 };
 
-// Refines a triangle, whose corners have their barycentric `weights` in that of the mesh. `rules` has
+// Refines a triangle. Corner::weights are barycentric weights in the mesh's triangle. `rules` has
 //   Refining judge(const Triangle&, uint32_t cuts, Result&) const, which may add it to the result
 //   Corner middle(const Triangle&, std::size_t side) const, between corners `side` and `side` + 1
 //   bool isStraight(const Triangle&, const Triangle& middles) const
 //   void keep(const Triangle&, Result&) const
 //   void countCut(Result&) const
-// `cuts`: how many times it may yet be cut; before that it is cut `forcedCuts` times unseen.
+// `cuts`: how many times the triangle may be cut. Before that it is cut `forcedCuts` times without a
+// decision.
 template <class Rules, class Corner, class Result>
 void refineTriangle(const Rules& rules, const std::array<Corner, 3>& t, uint32_t cuts, uint32_t forcedCuts,
                     Result& result) {

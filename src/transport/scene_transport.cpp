@@ -68,32 +68,33 @@ std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const Trans
 
 SceneTransport::SceneTransport(const Scene& scene, const TransportSettings& settingsToUse,
                                Progress& progressToShow, SourceMaker maker)
-    : settings(settingsToUse),
-      progress(progressToShow),
-      now(scene),
-      rays(now),
-      traced(now, rays),
-      makeSource(std::move(maker)) {}
+    : settings_(settingsToUse),
+      progress_(progressToShow),
+      now_(scene),
+      rays_(now_),
+      traced_(now_, rays_),
+      makeSource_(std::move(maker)) {}
 
 void SceneTransport::place(const Scene& scene) {
-  checkMoved(scene, now);
-  now.time = scene.time;
-  now.camera = scene.camera;
-  now.objects = scene.objects;
-  now.materials = scene.materials;
-  now.lights = scene.lights;
+  checkMoved(scene, now_);
+  now_.time = scene.time;
+  now_.camera = scene.camera;
+  now_.objects = scene.objects;
+  now_.materials = scene.materials;
+  now_.lights = scene.lights;
   for (const Object& object : scene.objects) {
-    if (!object.water || now.meshes[object.mesh].positions == scene.meshOf(object).positions) continue;
-    now.meshes[object.mesh] = scene.meshOf(object);
-    rays.reshape(object.mesh);
+    if (!object.water || now_.meshes[object.mesh].positions == scene.meshOf(object).positions) continue;
+    now_.meshes[object.mesh] = scene.meshOf(object);
+    rays_.reshape(object.mesh);
   }
-  rays.place(now);
+  rays_.place(now_);
 }
 
 const TransportSource& SceneTransport::source() {
-  if (!makeSource && settings.source == Source::traced) return traced;
-  if (!made) made = makeSource ? makeSource(now, traced) : makeTableSource(now, settings, traced, progress);
-  return *made;
+  if (!makeSource_ && settings_.source == Source::traced) return traced_;
+  if (!made_)
+    made_ = makeSource_ ? makeSource_(now_, traced_) : makeTableSource(now_, settings_, traced_, progress_);
+  return *made_;
 }
 
 }  // namespace nephroid

@@ -14,13 +14,14 @@
 
 namespace nephroid {
 
-// A table for each caster that can have one, casters of one mesh and one index of refraction sharing theirs:
-// from the cache, or built and left there.
+// Returns the light transport tables of a scene's casters. Casters with the same mesh and index of refraction
+// share a table. Tables are taken from the cache, or built and stored there.
 std::vector<TransportTable> makeTables(const Scene& scene, const TransportSettings& settings,
                                        Progress& progress);
 
-// The source "table": of the tables in `settings.baked`, or of makeTables; what no table holds goes to
-// `traced`. Scene and `traced` must outlive it. Throws InputError where the baked file is not of this scene.
+// Makes the source "table", with the tables in `settings.baked` or those of makeTables. It uses `traced` for
+// everything that no table contains. Scene and `traced` must outlive it. Throws InputError where the baked
+// file is not for this scene.
 std::unique_ptr<TransportSource> makeTableSource(const Scene& scene, const TransportSettings& settings,
                                                  const TracedSource& traced, Progress& progress);
 
@@ -29,29 +30,29 @@ class SceneTransport {
  public:
   using SourceMaker = std::function<std::unique_ptr<TransportSource>(const Scene&, const TracedSource&)>;
 
-  // Progress must outlive it. With `maker` the source is that one's, whatever the settings say. Throws
+  // `progress` must outlive it. With `maker`, the source is made by `maker`, and not by the settings. Throws
   // InputError as checkScene does.
   SceneTransport(const Scene& scene, const TransportSettings& settings, Progress& progress,
                  SourceMaker maker = {});
 
-  // Moves all to where `scene` has it, with the objects and meshes that this was made with; water may have
-  // another shape. Throws InputError as checkMoved does, and then moves nothing.
+  // Takes the state of `scene`, which must have the same objects and meshes as before; water may have another
+  // shape. Throws InputError as checkMoved does; nothing has changed then.
   void place(const Scene& scene);
 
-  const Scene& scene() const { return now; }
-  // Tables are found or made when it is first called.
+  const Scene& scene() const { return now_; }
+  // The first call loads or builds the tables.
   const TransportSource& source();
-  const RayScene& rayScene() const { return rays; }
-  MediumStack mediaAround(const Emitter& emitter) const { return traced.mediaAround(emitter); }
+  const RayScene& rayScene() const { return rays_; }
+  MediumStack mediaAround(const Emitter& emitter) const { return traced_.mediaAround(emitter); }
 
  private:
-  const TransportSettings settings;
-  Progress& progress;
-  Scene now;  // the sources look at it, and it stays where it is
-  RayScene rays;
-  TracedSource traced;
-  SourceMaker makeSource;
-  std::unique_ptr<TransportSource> made;
+  const TransportSettings settings_;
+  Progress& progress_;
+  Scene now_;  // the sources refer to it, so it must not be moved in memory
+  RayScene rays_;
+  TracedSource traced_;
+  SourceMaker makeSource_;
+  std::unique_ptr<TransportSource> made_;
 };
 
 }  // namespace nephroid

@@ -7,10 +7,12 @@ std::span<const Setting> transportSettings() {
   static constexpr Setting kSettings[] = {
       choiceSetting<&Settings::source>(
           "source",
-          "Where the rays that leave a caster come from: a light transport table, where smooth glass without "
-          "anything in it allows one, or traced now"),
-      choiceSetting<&Settings::paths>(
-          "paths", "Follow light by refraction alone, or by reflection outside and inside as well", true),
+          "How the rays that leave a caster are found. table: by a light transport table, for smooth glass "
+          "without anything in it, otherwise traced; traced: traced for each frame"),
+      choiceSetting<&Settings::paths>("paths",
+                                      "The paths of light that are followed. transmission: refraction only; "
+                                      "all: reflection outside and inside casters too",
+                                      true),
       wholeSetting<&Settings::directions>(
           "directions", 9, 65535, "Light directions kept for each vertex of a light transport table", true),
   };

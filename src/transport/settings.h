@@ -1,4 +1,4 @@
-// How light is followed through casters.
+// The settings of light transport through casters.
 #pragma once
 
 #include <array>
@@ -20,11 +20,11 @@ struct TransportSettings {
   Source source = Source::table;
   Paths paths = Paths::transmission;
   uint32_t directions = 129;    // for each vertex of a light transport table
-  std::filesystem::path baked;  // the tables to use; empty: found in the cache, or made
+  std::filesystem::path baked;  // file of tables; empty: they are taken from the cache, or built
   bool operator==(const TransportSettings&) const = default;
 };
 
-// All but `baked`, which is the user's choice among files.
+// All settings but `baked`, for which there is an option of its own.
 std::span<const Setting> transportSettings();
 
 }  // namespace nephroid

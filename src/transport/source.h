@@ -1,4 +1,5 @@
-// Where outgoing rays come from. Nothing after a source knows which one ran.
+// The interface of transport sources, which compute outgoing rays. Later stages do not depend on which source
+// is used.
 #pragma once
 
 #include <span>
@@ -15,22 +16,22 @@ namespace nephroid {
 struct TransportQuery {
   uint32_t object = 0;
   Emitter emitter{};
-  uint32_t channel = 0;  // which of the three indices of refraction it is bent by
+  uint32_t channel = 0;  // color channel, 0..2, whose index of refraction is used
   Paths paths = Paths::transmission;
-  uint32_t reflections = 0;  // bit i: it is reflected at the i-th boundary where it could also be transmitted
-  MediumStack media;         // what the emitter stands in
-  // A line of sight from the emitter's place rather than light: it is asked for also where something hides
-  // the surface, so that rays may be interpolated up to the edge of what is seen.
+  uint32_t reflections =
+      0;  // bit i: at the i-th boundary where light may be reflected or transmitted, it is reflected
+  MediumStack media;  // the objects that the emitter is inside of
+  // It is a view ray from the emitter's place, not light. View rays are also computed where something hides
+  // the surface, so that they can be interpolated up to the edge of the visible part.
   bool isSight = false;
 };
 
 // A point of a caster's surface where light meets it. World space.
 struct SurfacePoint {
-  vec3 position{0};      // on the curved surface where the mesh has one
-  vec3 flatPosition{0};  // on the triangle
-  vec3 normal{0};        // unit, smooth
-  vec3 geometricNormal{
-      0};  // unit, the triangle's; at a vertex, which is on every surface, the smooth one will do
+  vec3 position{0};         // on the curved surface where the mesh has one
+  vec3 flatPosition{0};     // on the triangle
+  vec3 normal{0};           // unit, smooth
+  vec3 geometricNormal{0};  // unit, of the triangle; at a vertex the smooth normal may be used
   uint32_t patch = 0;
 };
 
@@ -41,8 +42,8 @@ class TransportSource {
   // The outgoing ray for every vertex of the caster's mesh, in the mesh's order.
   virtual void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const = 0;
 
-  // Whether light's rays can be had anywhere on the caster's surface, and not at the vertices alone. Those of
-  // sight always can.
+  // Whether rays of light are available at any point of the caster's surface, and not only at vertices. View
+  // rays always are.
   virtual bool refines(const TransportQuery& query) const = 0;
   virtual OutgoingRay rayAt(const TransportQuery& query, const SurfacePoint& point) const = 0;
 };

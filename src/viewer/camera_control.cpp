@@ -49,9 +49,9 @@ void pan(Camera& camera, vec2 pixels, float height) {
   const vec3 forward = camera.target - camera.position;
   const vec3 right = normalize(cross(forward, camera.up));
   const vec3 up = normalize(cross(right, forward));
-  const float metresPerPixel =
+  const float metersPerPixel =
       2 * length(forward) * std::tan(0.5f * glm::radians(camera.verticalFov)) / height;
-  const vec3 move = metresPerPixel * (-pixels.x * right + pixels.y * up);
+  const vec3 move = metersPerPixel * (-pixels.x * right + pixels.y * up);
   camera.position += move;
   camera.target += move;
 }
@@ -61,10 +61,10 @@ void zoom(Camera& camera, float steps) {
   camera.position = camera.target + factor * (camera.position - camera.target);
 }
 
-void fly(Camera& camera, vec3 metres) {
+void fly(Camera& camera, vec3 meters) {
   const vec3 forward = normalize(camera.target - camera.position);
   const vec3 right = normalize(cross(forward, camera.up));
-  const vec3 move = metres.x * right + metres.y * vec3(0, 1, 0) + metres.z * forward;
+  const vec3 move = meters.x * right + meters.y * vec3(0, 1, 0) + meters.z * forward;
   camera.position += move;
   camera.target += move;
 }

@@ -6,24 +6,24 @@
 
 namespace nephroid {
 
-// Around its target. Radians: to the right and up, as the camera moves; it stops short of looking straight up
-// or down, where a camera that is loaded from a file is given another upward direction.
+// Moves the camera around its target. `turn`: radians to the right and up. It stops before the view is
+// vertical, where a camera from a file would get another upward direction.
 void orbit(Camera& camera, vec2 turn);
 
-// About itself. Radians: to the right and up, as the view moves.
+// Turns the camera in its place. `turn`: radians to the right and up.
 void look(Camera& camera, vec2 turn);
 
-// Sideways, so that what is as far away as the target follows a pointer moved by `pixels` (y down) in a
-// picture of `height` pixels.
+// Moves the camera sideways, so that things at the target's distance follow the pointer. `pixels`: the
+// pointer's movement (y down). `height`: of the picture, pixels.
 void pan(Camera& camera, vec2 pixels, float height);
 
-// Toward the target, which it does not reach: each step by an eighth of the way.
+// Moves the camera toward the target. Each step is an eighth of the distance, so the target is never reached.
 void zoom(Camera& camera, float steps);
 
-// By metres to its right, along +Y, and ahead; the target goes with it.
-void fly(Camera& camera, vec3 metres);
+// Moves the camera and its target. `meters`: to the right, along +Y, and ahead.
+void fly(Camera& camera, vec3 meters);
 
-// Backward or forward, and with it its target, until the box (m) just fits into the picture.
+// Moves the camera and its target so that the box (m) just fits into the picture.
 void frameBox(Camera& camera, const Box& box);
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// What frames take, as it is shown: steady enough to be read.
+// The frame times for display, smoothed so that they can be read.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@ namespace nephroid {
 
 class FrameTimes {
  public:
-  // A frame that took so long in all, and its passes in the order in which they ran.
+  // Adds a frame: its whole time, and the times of its passes in the order in which they ran.
   void add(double milliseconds, const std::vector<PassTime>& passes);
 
-  // Means over the last frames, in which old ones fade out.
+  // Moving means over the last frames.
   double milliseconds() const { return milliseconds_; }
   const std::vector<PassTime>& passes() const { return passes_; }
 

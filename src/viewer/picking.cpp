@@ -65,7 +65,7 @@ std::optional<vec2> pixelOf(const Camera& camera, uvec2 size, vec3 point) {
   return (0.5f * vec2(clip) / clip.w + 0.5f) * vec2(size);
 }
 
-vec3 centreOf(const Scene& scene, const Object& object) {
+vec3 centerOf(const Scene& scene, const Object& object) {
   return worldBounds(scene, object).center();
 }
 
@@ -140,23 +140,23 @@ vec3 draggedTo(const Camera& camera, uvec2 size, vec3 anchor, DragAlong along, v
   return anchor + heldAt(camera, size, anchor, along, to) - heldAt(camera, size, anchor, along, from);
 }
 
-void turn(Placement& placement, vec3 centre, vec3 axis, float angle) {
+void turn(Placement& placement, vec3 center, vec3 axis, float angle) {
   const quat rotation = glm::angleAxis(angle, axis);
-  placement.translation = centre + rotation * (placement.translation - centre);
+  placement.translation = center + rotation * (placement.translation - center);
   placement.rotation = normalize(rotation * placement.rotation);
 }
 
 void turn(Light& light, vec3 axis, float angle) {
   const quat rotation = glm::angleAxis(angle, axis);
   if (light.type == LightType::line) {
-    const vec3 centre = 0.5f * (light.position + light.end);
-    light.position = centre + rotation * (light.position - centre);
-    light.end = centre + rotation * (light.end - centre);
+    const vec3 center = 0.5f * (light.position + light.end);
+    light.position = center + rotation * (light.position - center);
+    light.end = center + rotation * (light.end - center);
   } else if (light.type == LightType::area) {
-    const vec3 centre = middleOf(light);
+    const vec3 center = middleOf(light);
     light.u = rotation * light.u;
     light.v = rotation * light.v;
-    light.position = centre - 0.5f * (light.u + light.v);
+    light.position = center - 0.5f * (light.u + light.v);
     light.direction = normalize(rotation * light.direction);
   } else if (light.type != LightType::point) {
     light.direction = normalize(rotation * light.direction);

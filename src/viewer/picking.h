@@ -1,4 +1,4 @@
-// What the pointer is on, and where a thing that it drags goes.
+// Finds what is under the pointer, and moves what the pointer drags.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace nephroid {
 
-// A picture's pixels: x to the right, y down, from the upper left corner.
+// The ray of a pixel. Pixels: x to the right, y down, from the upper left corner. `size`: of the picture.
 Ray rayThrough(const Camera& camera, uvec2 size, vec2 pixel);
-// None for what is behind the camera.
+// The pixel of a point (m). None where the point is behind the camera.
 std::optional<vec2> pixelOf(const Camera& camera, uvec2 size, vec3 point);
 
 enum class Chosen { nothing, object, light };
@@ -22,38 +22,47 @@ struct Selection {
   bool operator==(const Selection&) const = default;
 };
 
-enum class HandlePart { body, aim, end };  // all of a light; what a spot is aimed at; the far end of a line
+enum class HandlePart {
+  body,
+  aim,
+  end
+};  // body: the light itself; aim: the point that a spot is aimed at; end: the second end of a line
 
-// A place that a light is held by.
+// A point by which a light can be dragged.
 struct Handle {
   uint32_t light = 0;
   HandlePart part = HandlePart::body;
   vec3 position{0};  // m
 };
 
-// Of all lights. A directional light, which is nowhere, is held on the side it comes from, outside of what is
-// lit; a spot's aim is as far along its light as the middle of the scene is away.
+// The handles of all lights. The handle of a directional light is outside of the lit objects, on the side
+// from which the light comes. The distance from a spot to its aim is the distance to the middle of the scene.
 std::vector<Handle> handlesOf(const Scene& scene);
 
-// The handle of a light moved to `position`; the light follows.
+// Moves a handle to `position` (m), and the light with it.
 void moveHandle(Scene& scene, const Handle& handle, vec3 position);
 
 // The nearest handle within `reach` pixels.
 std::optional<Handle> handleAt(const Scene& scene, uvec2 size, vec2 pixel, float reach);
 
-// The light whose handle is there, or else the object that is seen there.
+// The light with a handle at the pixel, or else the object that is visible there.
 Selection pick(const Scene& scene, const RayScene& rays, uvec2 size, vec2 pixel, float reach);
 
-enum class DragAlong { ground, x, y, z };  // a level plane, which is the view's where that is seen edge-on
+enum class DragAlong {
+  ground,
+  x,
+  y,
+  z
+};  // ground: a horizontal plane, or the plane of the picture where the horizontal plane is seen edge-on
 
-// Where what was at `anchor` (m) under `from` goes when the pointer goes to `to`.
+// The new position of the point `anchor` (m), when the pointer moves from the pixel `from` to `to`.
 vec3 draggedTo(const Camera& camera, uvec2 size, vec3 anchor, DragAlong along, vec2 from, vec2 to);
 
-// Turned about `axis` (unit) through `centre`, radians.
-void turn(Placement& placement, vec3 centre, vec3 axis, float angle);
+// Rotates about `axis` (unit) through `center` (m). `angle`: radians.
+void turn(Placement& placement, vec3 center, vec3 axis, float angle);
 void turn(Light& light, vec3 axis, float angle);
 
-// The middle of an object's box, where it stands.
-vec3 centreOf(const Scene& scene, const Object& object);
+// The middle (m, world space) of an object's box.
+vec3 centerOf(const Scene& scene, const Object& object);
 
 }  // namespace nephroid

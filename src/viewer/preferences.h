@@ -1,4 +1,4 @@
-// What the viewer remembers of how it was left, for each user.
+// The settings that the viewer stores for each user when it is closed.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +13,12 @@ struct ViewerPreferences {
   bool areTimesShown = true;
 };
 
-// nephroid/viewer.toml in XDG_CONFIG_HOME, or in ~/.config; empty where there is neither.
+// nephroid/viewer.toml in XDG_CONFIG_HOME or in ~/.config; empty where neither is known.
 std::filesystem::path preferencesFile();
 
-// Those that were kept; what cannot be read is as it is at first.
+// Reads the preferences. Values that cannot be read have their defaults.
 ViewerPreferences loadPreferences(const std::filesystem::path& file);
-// Where it cannot be written, nothing is.
+// Writes the preferences. Errors are ignored.
 void savePreferences(const std::filesystem::path& file, const ViewerPreferences& preferences);
 
 }  // namespace nephroid

@@ -1,5 +1,5 @@
-// What takes long before a scene can be drawn: loading it, light transport tables, irradiance volumes. It is
-// done beside the window, which goes on with what there is.
+// The long work before a scene can be drawn: loading, light transport tables, irradiance volumes. It runs on
+// another thread, while the window shows the old scene.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,8 @@
 
 namespace nephroid {
 
-// Everything that drawing needs of the host. Stays where it was made: its parts look at each other.
+// Everything on the host that drawing needs. It must not be moved in memory, because its parts refer to each
+// other.
 struct Prepared {
   Scene scene;
   PictureSettings settings;
@@ -24,11 +25,10 @@ struct Prepared {
   std::unique_ptr<SceneTransport> transport;
 };
 
-// One such piece of work, on a thread of its own. Destroyed before it is done, it is cancelled and waited
-// for.
+// One preparation, on its own thread. The destructor cancels it and waits for it.
 class Preparation {
  public:
-  // `load` gives the scene; it is called on that thread.
+  // `load` returns the scene; it is called on that thread.
   Preparation(std::function<Scene()> load, const PictureSettings& settings);
   ~Preparation();
   Preparation(const Preparation&) = delete;
@@ -37,7 +37,8 @@ class Preparation {
   void cancel() { prepared_->progress.cancel(); }
   bool isDone() const { return isDone_; }
   Progress::State progress() const { return prepared_->progress.state(); }
-  // When it is done. Throws what went wrong, Interrupted where it was cancelled.
+  // The result. To be called when isDone(). Throws the exception of the work, or Interrupted where it was
+  // canceled.
   std::unique_ptr<Prepared> take();
 
  private:

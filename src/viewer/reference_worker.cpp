@@ -19,7 +19,7 @@ struct ReferenceWorker::Job {
   Scene scene;
   ReferenceSettings settings;
   std::atomic<bool> isStopped{false}, isEnded{false};
-  std::mutex sharing;  // of what follows
+  std::mutex sharing;  // protects `compared` and `newest`
   std::shared_ptr<const Image> compared;
   std::shared_ptr<const ReferenceView> newest;
   std::thread thread;

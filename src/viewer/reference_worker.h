@@ -1,4 +1,4 @@
-// The reference, refined beside the window from where the camera is, and what the picture is off it.
+// Refines the reference on another thread while the window is used, and compares the picture with it.
 #pragma once
 
 #include <atomic>
@@ -14,10 +14,10 @@
 
 namespace nephroid {
 
-// What `image` is off the reference, pixel by pixel.
+// The errors of an image against the reference.
 struct ErrorView {
   LayerErrors total, caustics;
-  double scaleEnd = 0;  // the relative error that the strongest colors stand for
+  double scaleEnd = 0;  // the relative error at the end of the color scale
   ByteImage picture;    // signedMap of the relative errors of the total
 };
 
@@ -28,7 +28,7 @@ struct ReferenceView {
   double noise = 0;   // relative standard error of the caustics
   ByteImage picture;  // tone-mapped
   std::optional<ErrorView> error;
-  std::string failure;  // what went wrong; empty: nothing
+  std::string failure;  // error message; empty: no error
 };
 
 class ReferenceWorker {
@@ -38,15 +38,15 @@ class ReferenceWorker {
   ReferenceWorker(const ReferenceWorker&) = delete;
   ReferenceWorker& operator=(const ReferenceWorker&) = delete;
 
-  // Refines this scene from now on; what went before is ended, and not waited for.
+  // Starts to refine this scene. The work before is canceled, without waiting for it.
   void start(const Scene& scene, const ReferenceSettings& settings);
   void stop();
   bool isRunning() const { return job_ != nullptr; }
 
-  // From the next pass on, errors are those of `image` (nit), which is of the reference's size.
+  // Sets the image (nit, of the reference's size) whose errors are computed from the next pass on.
   void compare(Image image);
 
-  // The last there is; null before the first pass.
+  // The newest state; null before the first pass.
   std::shared_ptr<const ReferenceView> newest() const;
 
  private:
@@ -57,7 +57,8 @@ class ReferenceWorker {
   std::list<std::unique_ptr<Job>> ending_;
 };
 
-// As the technique's model has it: of the same paths, and of channels where it follows refraction alone.
+// The settings of a reference that matches the techniques: the same paths, and color channels where only
+// refraction is followed.
 ReferenceSettings referenceSettingsFor(Paths paths, uvec2 size);
 
 }  // namespace nephroid

@@ -1,5 +1,4 @@
-// Lines over the picture: where beams go, which of them carry nothing and why, and what techniques compute
-// on.
+// Lines over the picture: beams, rays without light, and the grids of techniques.
 #pragma once
 
 #include <span>
@@ -15,21 +14,21 @@ struct SceneLine {
   vec3 color{1};        // sRGB
 };
 
-// Why no light leaves a caster where it was asked for.
+// The numbers of rays at vertices: with light, and without it for each reason.
 struct BeamCounts {
   std::size_t carried = 0, occluded = 0, lost = 0, unlit = 0;  // rays at vertices
 };
 
-inline constexpr vec3 kCarriedColor{1, 0.9f, 0.55f};  // of white light; else its own
+inline constexpr vec3 kCarriedColor{1, 0.9f, 0.55f};  // for white light; other light has its own color
 inline constexpr vec3 kOccludedColor{0.35f, 0.55f, 1};
 inline constexpr vec3 kLostColor{1, 0.35f, 0.3f};
 
-// The rays on which beams stand, at most `most` of them, from where they leave the caster to the first
-// surface they meet, or as far as the scene is wide; of lights through casters as `paths` has them.
+// The corner rays of beams, at most `most` of them. They go from the caster to the first surface that they
+// meet, or as far as the size of the scene. `paths`: which paths are followed.
 std::vector<SceneLine> beamLines(SceneTransport& transport, Paths paths, std::size_t most);
 
-// Those that carry no light, as short strokes where light meets the caster: what stands in its way before, or
-// what is totally reflected until it is lost. `counts` of all, not of those that are drawn.
+// The rays that carry no light, as short lines where light meets the caster: something stands before it, or
+// the light is totally reflected until it is lost. `counts`: of all rays, also of those that are not drawn.
 std::vector<SceneLine> culledLines(SceneTransport& transport, Paths paths, std::size_t most,
                                    BeamCounts& counts);
 

@@ -1,5 +1,4 @@
-// What of a scene is changed by hand, apart from what was loaded and stays: what undo goes back to and saving
-// writes.
+// The parts of a scene that the user can change by hand. Undo restores them, and saving writes them.
 #pragma once
 
 #include <functional>
@@ -19,47 +18,49 @@ struct AirState {
   bool operator==(const AirState&) const = default;
 };
 
-// Lists are as long as those of the scene.
+// Lists have the same length as those of the scene.
 struct SceneState {
   Camera camera;
   Environment environment;
   std::vector<Material> materials;
-  std::vector<Placement> placements;          // of the objects
-  std::vector<std::vector<WaterDrop>> drops;  // that fall into them; none into what is no simulated water
+  std::vector<Placement> placements;  // of the objects
+  std::vector<std::vector<WaterDrop>>
+      drops;  // the drops that fall into each object; only simulated water has drops
   std::vector<Light> lights;
   std::optional<AirState> air;
   bool operator==(const SceneState&) const = default;
 };
 
 SceneState stateOf(const Scene& scene);
-// Water into which other drops fall is made anew, at the scene's time.
+// Where the drops have changed, the water's mesh is made again for the scene's time.
 void apply(const SceneState& state, Scene& scene);
 
-// Whether they differ at most in where they are looked at from, which is no change to a scene.
+// Whether the two are equal apart from the camera, whose movement is no change of the scene.
 bool isSameScene(const SceneState& a, const SceneState& b);
 
-// Whether stones can fall into the object: it is water that moves on a grid of its own.
+// Whether stones can be dropped into the object: it is simulated water, or can be.
 bool takesStones(const Object& object);
-// One falls there (m, in the object's space) at the scene's time.
+// Drops a stone at `place` (m, x and z in the object's space) at the scene's time.
 void dropStone(Scene& scene, uint32_t object, vec2 place);
 
-// Whether what was prepared for `before` cannot draw `after`.
+// Whether a new preparation is needed, because the one for `before` cannot be used for `after`.
 bool needsPreparation(const SceneState& before, const SceneState& after, const TechniqueSettings& settings);
 
-// States that were come by one after another.
+// The history of states, for undo and redo.
 class History {
  public:
   explicit History(SceneState first = {}) : states_{std::move(first)}, saved_(states_.front()) {}
 
   const SceneState& now() const { return states_[now_]; }
-  // A further one, unless it is the same as now; those that were undone are forgotten.
+  // Adds a state, unless it is equal to the present one. States that were undone are removed.
   void add(const SceneState& state);
   bool canUndo() const { return now_ > 0; }
   bool canRedo() const { return now_ + 1 < states_.size(); }
   const SceneState& undo() { return states_[now_ -= canUndo()]; }
   const SceneState& redo() { return states_[now_ += canRedo()]; }
 
-  // All of them, and the saved one: what moves by itself is no step.
+  // Changes all states and the saved one, for things that move by themselves, which are no steps of the
+  // history.
   void changeAll(const std::function<void(SceneState&)>& change);
 
   void markSaved() { saved_ = states_[now_]; }

@@ -1,4 +1,4 @@
-// A scene at another time.
+// Moves a scene to another time.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace nephroid {
 
-// Waves and lights' cues go on to `time` (s). `text` is that of the scene's file, empty where it is no .toml.
-// `asLoaded` is what the file has at the scene's time, and then at the other; what was changed by hand since
-// stays as it is, in the scene and in all states of its history. `waves` are those of the last time. Throws
-// InputError where the text is no scene.
+// Sets waves and lights with cues to their state at `time` (s). `text`: of the scene's file; empty where it
+// is no .toml. `asLoaded`: the state from the file at the scene's time; it is replaced by the one at `time`.
+// Values that the user has changed by hand stay, in the scene and in all states of its history. `waves`: the
+// state of simulated water at the last time. Throws InputError where the text is no scene.
 void moveTo(Scene& scene, SceneState& asLoaded, History& history, const std::string& text, double time,
             WaveRuns& waves);
 

@@ -12,24 +12,24 @@ namespace nephroid {
 
 class Stage {
  public:
-  // The device outlives it. `keepsLight` as RenderSettings has it.
+  // The device must outlive it. `keepsLight`: as in RenderSettings.
   Stage(gpu::Device& device, std::unique_ptr<Prepared> prepared, uvec2 size, bool keepsLight);
 
-  // As Renderer::render. `scene` has the objects, meshes and lights that this was made of.
+  // As Renderer::render. `scene` must have the same objects, meshes and lights as the prepared one.
   std::vector<PassTime> render(const Scene& scene) { return renderer_->render(scene); }
   void resize(uvec2 size) { renderer_->resize(size); }
   uvec2 size() const { return renderer_->size(); }
-  // All of it on the device made anew, of the shaders as they are now. Throws, and stays as it was, where
-  // they do not fit.
+  // Creates everything on the device again, with the present shaders. Where that fails it throws, and nothing
+  // has changed.
   void remake();
 
   Renderer& renderer() { return *renderer_; }
   const PictureSettings& settings() const { return prepared_->settings; }
-  const Stats& stats() const { return stats_; }  // of the last frame: counts
+  const Stats& stats() const { return stats_; }  // counts of the last frame
   const RayScene& rayScene() const { return prepared_->transport->rayScene(); }
   SceneTransport& transport() { return *prepared_->transport; }
-  const Scene& scene() const { return prepared_->scene; }  // as it was prepared
-  // Of the last frame: where the technique and the frame compute.
+  const Scene& scene() const { return prepared_->scene; }  // in the state in which it was prepared
+  // The grids of the last frame, of the technique and of the view through casters.
   std::vector<Lattice> lattices() const;
 
  private:

@@ -1,4 +1,4 @@
-// Pictures to a video, by way of ffmpeg.
+// Records pictures as a video, with the program ffmpeg.
 #pragma once
 
 #include <cstdio>
@@ -11,7 +11,7 @@ namespace nephroid {
 
 class VideoPipe {
  public:
-  // Throws RuntimeFailure, saying what to install, where there is no ffmpeg.
+  // Throws RuntimeFailure, which tells what to install, where there is no ffmpeg. `size`: pixels.
   VideoPipe(const std::filesystem::path& file, uvec2 size, double framesPerSecond);
   // Ends the video.
   ~VideoPipe();
@@ -19,7 +19,7 @@ class VideoPipe {
   VideoPipe& operator=(const VideoPipe&) = delete;
 
   uvec2 size() const { return size_; }
-  // RGB, of that size. False where ffmpeg takes no more.
+  // Adds a picture (3 components, of that size). Returns false where ffmpeg has ended.
   bool add(const ByteImage& picture);
 
  private:

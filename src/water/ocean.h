@@ -11,17 +11,18 @@ namespace nephroid {
 // m^4 per radian^2: the variance of height over the plane of wave vectors (rad/m).
 double spectralDensity(const OceanSpectrum& ocean, glm::dvec2 waveVector);
 
-// rad/s, of gravity waves of that wave number (rad/m) on water of a depth (m).
+// The angular frequency (rad/s) of gravity waves with a wave number (rad/m) on water of a depth (m).
 double waveFrequency(double waveNumber, double depth);
 
-// m2, that waves of the water's grid have between them: 16 of it are the significant height squared.
+// The variance (m2) of the height for the waves that the water's grid can hold. 16 times the variance is the
+// square of the significant height.
 double oceanVariance(const Water& water);
 
-// At the vertices of the water's grid, x fastest.
+// Values at the vertices of the water's grid, [j * grid.x + i] with i along x.
 struct OceanSurface {
   std::vector<double> heights;      // m
-  std::vector<glm::dvec2> slopes;   // of the height over where a vertex started from
-  std::vector<glm::dvec2> offsets;  // m that choppiness moves vertices, in (x, z)
+  std::vector<glm::dvec2> slopes;   // slopes (m per m) of the height at the vertex's place before its offset
+  std::vector<glm::dvec2> offsets;  // m, the displacement of vertices by choppiness, in (x, z)
 };
 
 OceanSurface oceanSurface(const Water& water, double time);

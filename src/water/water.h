@@ -1,4 +1,4 @@
-// A surface of water as a height field that moves: waves, what is simulated, and the sea.
+// A surface of water as a moving height field: plane waves, a simulation, and the sea.
 #pragma once
 
 #include <limits>
@@ -19,24 +19,26 @@ struct Wave {
   float phase = 0;       // radians
 };
 
-// A drop that has fallen into simulated water: a dent, with the water it drives out heaped up around it.
+// A drop that falls into simulated water. It makes a hollow with a ring of displaced water around it.
 struct WaterDrop {
   float time = 0;       // s
   vec2 position{0};     // m, (x, z)
   float radius = 0.1f;  // m
-  float depth = 0.02f;  // m, in its middle
+  float depth = 0.02f;  // m, depth of the hollow in its middle
   bool operator==(const WaterDrop&) const = default;
 };
 
-// What moves through simulated water, upright and round, with a rim that falls off as a Gaussian.
+// An obstacle that moves through simulated water. It is upright and round, and its depth falls off like a
+// Gaussian.
 struct WaterObstacle {
-  float radius = 0.1f;     // m
-  float depth = 0.02f;     // m that it reaches down in its middle
-  std::vector<vec3> path;  // x, z (m) and time (s), which rises; it stands still before and after
+  float radius = 0.1f;  // m
+  float depth = 0.02f;  // m, how deep it reaches in its middle
+  std::vector<vec3>
+      path;  // x, z (m) and time (s), ascending; it stands still before the first and after the last
   bool operator==(const WaterObstacle&) const = default;
 };
 
-// The wave equation on the water's grid, with walls that send waves back along its sides; still at time 0.
+// The wave equation on the water's grid. The grid's sides reflect waves. The water is still at time 0.
 struct WaveSimulation {
   float speed = 1;    // m/s, of all waves
   float damping = 0;  // 1/s
@@ -47,19 +49,19 @@ struct WaveSimulation {
 
 enum class SpectrumShape { jonswap, phillips };
 
-// The sea as a sum of waves of random phases over its spectrum, which repeats at the water's sides.
+// The sea as a sum of waves with random phases. It is periodic: opposite sides of the water fit together.
 struct OceanSpectrum {
   SpectrumShape shape = SpectrumShape::jonswap;
   vec2 wind{5, 0};                                       // m/s, in (x, z), 10 m above the water
   float fetch = 1e4f;                                    // m of water that the wind has blown over (JONSWAP)
   float depth = std::numeric_limits<float>::infinity();  // m, of the water
-  float significantHeight = 0;                           // m; 0: that of wind and fetch
-  float choppiness = 0;                                  // 1: crests as sharp as those of Gerstner's waves
+  float significantHeight = 0;                           // m; 0: it follows from wind and fetch
+  float choppiness = 0;  // 0: sine waves; 1: crests as sharp as those of Gerstner's waves
   uint32_t seed = 0;
 };
 
-// The height field behind a mesh of the shape "water": y = sum of amplitude sin(2 pi / wavelength (direction
-// . (x, z) - speed t) + phase), and on it what is simulated and the sea.
+// The height field of the shape "water": y = sum of amplitude sin(2 pi / wavelength (direction . (x, z) -
+// speed t) + phase), plus the simulation and the sea.
 struct Water {
   vec2 size{1, 1};   // m
   uvec2 grid{2, 2};  // vertices along x and z; 0: the mesh is from a file
@@ -69,11 +71,11 @@ struct Water {
 };
 
 // The surface y(x, z) at `time` (s); its bottom is open. Vertex (i, j) of the grid has the index j * grid.x +
-// i, x and z rising. Its simulation goes on from `run`, where there is one.
+// i, x and z rising. With `run`, the simulation continues from the state of the last call.
 Mesh makeWater(const Water& water, double time, WaveRun* run = nullptr);
 
-// Height (m) and slope (d/dx, d/dz) of the water at (x, z). `direction` enters as it is, so one that is not
-// unit shortens or stretches its wave.
+// Height (m) and slope (d/dx, d/dz) of the water at (x, z). A wave's `direction` is not normalized: if it is
+// not unit, the wave is shorter or longer.
 struct WaterPoint {
   double height;
   glm::dvec2 slope;

@@ -1,5 +1,5 @@
-// The wave equation u_tt + damping u_t = c^2 (u_xx + u_zz) on a grid, by central differences in time and
-// space; its sides send waves back (no slope across them).
+// Solves the wave equation u_tt + damping u_t = c^2 (u_xx + u_zz) on a grid, with central differences in time
+// and space. The sides reflect waves (the slope across them is 0).
 #pragma once
 
 #include <map>
@@ -19,42 +19,43 @@ struct WaveField {
   std::vector<double> before;
 };
 
-// s; longer steps make waves grow without end.
+// The longest stable time step (s); with longer steps waves grow without limit. `spacing`: m; `speed`: m/s.
 double stableStep(glm::dvec2 spacing, double speed);
 
 void advance(WaveField& field);
 
-// What advance keeps where there is no damping: kinetic and potential energy, J per kg/m2 of water set in
-// motion.
+// Kinetic and potential energy, in J per kg/m2 of moving water. Without damping, `advance` does not change
+// it.
 double energy(const WaveField& field);
 
-// Steps of the simulation up to `time`, s.
+// The number of steps of the simulation up to `time` (s).
 double simulationSteps(const Water& water, double time);
 
-// m, at the vertices of the water's grid; still before time 0.
+// Heights (m) at the vertices of the water's grid, [j * grid.x + i] with i along x. The water is still before
+// time 0.
 std::vector<double> simulatedHeights(const Water& water, double time);
 
-// A simulation that is asked for one time after another, with what it came to the last time.
+// A simulation that is evaluated at one time after another and keeps its last state.
 class WaveRun {
  public:
-  // As simulatedHeights, to the last bit. Goes on from the last time it was asked for, unless that is past
-  // `time` or the water has since changed in what it did up to there.
+  // The same heights as simulatedHeights, bit for bit. Continues from the last time, unless that is later
+  // than `time`, or the water was changed in a way that matters before the last time.
   std::vector<double> heightsAt(const Water& water, double time);
 
-  // Simulated so far.
+  // The number of steps simulated so far.
   uint64_t steps() const { return steps_; }
 
  private:
   bool leadsTo(const Water& water, double steps) const;
 
-  WaveField field_;            // at the end of the last step but one
+  WaveField field_;            // after the second last step
   double done_ = 0;            // steps up to there
   vec2 size_{0};               // m, of the water
-  WaveSimulation simulation_;  // what of it there was until then
+  WaveSimulation simulation_;  // the part of the simulation that took effect until then
   uint64_t steps_ = 0;
 };
 
-// Of a scene's objects, by index.
+// The runs of a scene's objects, by the index of the object.
 using WaveRuns = std::map<std::size_t, WaveRun>;
 
 }  // namespace nephroid

@@ -26,7 +26,7 @@ PlaneGrid unitGrid() {
   return {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
 }
 
-// A beam that meets the grid's plane, one texel a metre, in these texel coordinates, straight from above.
+// A beam that meets the grid's plane, one texel a meter, in these texel coordinates, straight from above.
 Beam beamOnto(vec2 a, vec2 b, vec2 c, float flux = 1) {
   Beam beam{};
   const vec2 corners[] = {a, b, c};
@@ -245,7 +245,7 @@ TEST(Beams, OfALightInsideTheGlassComeOut) {
   light.type = LightType::point;
   light.position = {0, 1, 0};
   light.intensity = vec3(100);
-  // From the centre no ray is bent: E = I cos^3 / h^2 times the transmittance at normal incidence.
+  // From the center no ray is bent: E = I cos^3 / h^2 times the transmittance at normal incidence.
   const SensorLayer layer = causticsOf(setup);
   EXPECT_NEAR(layer[64 * 128 + 64].y, 96, 1);
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr LayerSettings kSettings{.layers = 9, .texels = 40, .farthest = 2, .relief = 0};
 
-// Half a square metre of light of 3 lm, as (1, 2, 0) on the mean of its channels.
+// Half a square meter of light of 3 lm, as (1, 2, 0) on the mean of its channels.
 Beam halfSquare(vec3 direction, float reach) {
   Beam beam{};
   const vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
@@ -28,7 +28,7 @@ glm::dvec4 sumOfLayer(const LightLayers& light, uint32_t layer) {
   const auto texels = std::size_t(light.grid.size.x * light.grid.size.y);
   glm::dvec4 sum(0);
   for (std::size_t i = 0; i < texels; ++i) sum += glm::dvec4(light.texels[layer * texels + i]);
-  return sum / double(light.grid.texelsPerMetre * light.grid.texelsPerMetre);
+  return sum / double(light.grid.texelsPerMeter * light.grid.texelsPerMeter);
 }
 
 TEST(LightLayers, HaveAllTheFluxOfSlantedLightOnEachWithItsSlopeAndItsWay) {
@@ -37,7 +37,7 @@ TEST(LightLayers, HaveAllTheFluxOfSlantedLightOnEachWithItsSlopeAndItsWay) {
   const LayerGrid& grid = light.grid;
   EXPECT_NEAR(glm::distance(light.color, vec3(1, 2, 0)), 0, 1e-5f);
   const double perDepth = std::sqrt(1 + 0.25 + 0.0625);
-  EXPECT_NEAR((grid.layers - 1) / grid.layersPerMetre, 2 / perDepth, 1e-5);
+  EXPECT_NEAR((grid.layers - 1) / grid.layersPerMeter, 2 / perDepth, 1e-5);
   for (uint32_t layer = 0; layer < 9; ++layer) {
     const glm::dvec4 sum = sumOfLayer(light, layer);
     EXPECT_NEAR(sum.x, 3 * perDepth, 1e-4) << layer;
@@ -48,7 +48,7 @@ TEST(LightLayers, HaveAllTheFluxOfSlantedLightOnEachWithItsSlopeAndItsWay) {
   // What goes on with the light stays on its texel.
   const vec3 at(0.3f, 0, 0.3f), later = at + 0.6f * vec3(0.5f, -1, -0.25f);
   EXPECT_NEAR(glm::distance(vec2(placeInLayers(grid, at)), vec2(placeInLayers(grid, later))), 0, 1e-3f);
-  EXPECT_NEAR(placeInLayers(grid, later).z, 0.6f * grid.layersPerMetre, 1e-3f);
+  EXPECT_NEAR(placeInLayers(grid, later).z, 0.6f * grid.layersPerMeter, 1e-3f);
 }
 
 TEST(LightLayers, KeepTheFluxOfLightThatComesToAFocusAndGoesOn) {
@@ -64,7 +64,7 @@ TEST(LightLayers, KeepTheFluxOfLightThatComesToAFocusAndGoesOn) {
 }
 
 TEST(LightLayers, EndALayerBehindWhatLightMeets) {
-  // The deeper one makes the grid two metres deep: a layer each quarter.
+  // The deeper one makes the grid two meters deep: a layer each quarter.
   const std::vector<Beam> beams{halfSquare({0, -1, 0}, kUnboundedReach), halfSquare({0, -1, 0}, 0.6f)};
   const LightLayers light = lightInLayers(beams, {0, -1, 0}, kSettings);
   for (uint32_t layer = 0; layer < 9; ++layer)

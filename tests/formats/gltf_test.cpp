@@ -141,7 +141,7 @@ TEST_F(Gltf, MaterialsBecomeWhatLightTransportKnows) {
   EXPECT_EQ(lamp.emission, vec3(10, 5, 0));
 }
 
-TEST_F(Gltf, ABaseColourTextureIsMadeLinear) {
+TEST_F(Gltf, ABaseColorTextureIsMadeLinear) {
   // One pixel of 8-bit RGBA: (128, 255, 0, 255).
   const std::string png =
       "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGNo+M/wHwAFggJ/5y8hgAAAAABJRU5ErkJggg==";

@@ -24,7 +24,7 @@ TEST_F(SceneFile, MeshesAreFoundBesideTheSceneAndThenAmongTheModels) {
   unsetenv("NEPHROID_MODELS");
 }
 
-TEST_F(SceneFile, FitCentresAndScalesTheLongestSide) {
+TEST_F(SceneFile, FitCentersAndScalesTheLongestSide) {
   write("t.obj", "v 10 0 0\nv 14 0 0\nv 10 2 0\nv 10 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   const Scene scene = load(
       kMaterials + "[[object]]\nmaterial = \"glass\"\nmesh = \"t.obj\"\nfit = 2\ntranslation = [0, 5, 0]\n");

@@ -105,12 +105,12 @@ TEST(Shapes, TorusNormalsAreItsGradient) {
   const Mesh mesh = makeTorus(0.5f, 0.2f);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const vec3 p = mesh.positions[i];
-    const vec3 centre = 0.5f * glm::normalize(vec3(p.x, 0, p.z));
-    ASSERT_LT(glm::distance(mesh.normals[i], (p - centre) / 0.2f), 1e-5f);
+    const vec3 center = 0.5f * glm::normalize(vec3(p.x, 0, p.z));
+    ASSERT_LT(glm::distance(mesh.normals[i], (p - center) / 0.2f), 1e-5f);
   }
 }
 
-// A tube's volume is its section times the length of the line through its centre, whatever way that bends.
+// A tube's volume is its section times the length of the line through its center, whatever way that bends.
 TEST(Shapes, TorusKnotIsATubeOfTheLengthOfItsCurve) {
   const Mesh mesh = makeTorusKnot(2, 3, 0.5f, 0.1f, {0, 40000});
   double curve = 0;

@@ -85,7 +85,7 @@ TEST_F(GpuTest, TooMuchMemoryIsRefusedWithTheBytesAndTheName) {
   }
 }
 
-// Each step reads what the one before wrote: without barriers the values, and synchronisation validation, say
+// Each step reads what the one before wrote: without barriers the values, and synchronization validation, say
 // so.
 TEST_F(GpuTest, PassesSeeWhatPassesBeforeThemWrote) {
   constexpr uint32_t kCount = 10'000;
@@ -249,7 +249,7 @@ struct TriangleConstants {
   vec4 color;
 };
 
-TEST_F(GpuTest, ATriangleCoversTheTexelsWhoseCentresItHolds) {
+TEST_F(GpuTest, ATriangleCoversTheTexelsWhoseCentersItHolds) {
   constexpr uint32_t kSize = 32;
   const gpu::Image color = gpu::createImage(device(), "color", {.width = kSize, .height = kSize});
   const gpu::Image depth =
@@ -274,7 +274,7 @@ TEST_F(GpuTest, ATriangleCoversTheTexelsWhoseCentresItHolds) {
   const auto depths = gpu::download<float>(device(), depth);
   for (uint32_t y = 0; y < kSize; ++y)
     for (uint32_t x = 0; x < kSize; ++x) {
-      if (x + y == kSize - 1) continue;  // centres on the edge itself
+      if (x + y == kSize - 1) continue;  // centers on the edge itself
       const bool inside = x + y >= kSize;
       EXPECT_EQ(texels[y * kSize + x], inside ? vec4(1.25f, 2.25f, 3.25f, 4.25f) : vec4(0.25f))
           << x << ", " << y;

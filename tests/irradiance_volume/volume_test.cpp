@@ -19,29 +19,29 @@ namespace {
 constexpr float kDisc = 0.5f;  // m, radius of the discs that flux is counted through
 
 // Lumens through a disc across the unit vector `axis`, by points spread evenly over it.
-double fluxThrough(IrradianceVolume& volume, vec3 light, vec3 centre, vec3 axis, float disc = kDisc) {
+double fluxThrough(IrradianceVolume& volume, vec3 light, vec3 center, vec3 axis, float disc = kDisc) {
   constexpr int kPoints = 40000;
   const mat3 frame = sampleFrame(axis);
   double lux = 0;
   for (int i = 0; i < kPoints; ++i) {
     const float radius = disc * std::sqrt((float(i) + 0.5f) / kPoints), angle = 2.3999632f * float(i);
-    const vec3 point = centre + radius * (std::cos(angle) * frame[0] + std::sin(angle) * frame[1]);
+    const vec3 point = center + radius * (std::cos(angle) * frame[0] + std::sin(angle) * frame[1]);
     lux += double(volume.illuminance(point, -axis, light, LightInterpolation::rotated).y) / kPoints;
   }
   return lux * std::numbers::pi * double(disc * disc);
 }
 
 // The same by counting photons.
-double photonsThrough(const CasterTracer& tracer, vec3 light, vec3 centre, vec3 axis) {
+double photonsThrough(const CasterTracer& tracer, vec3 light, vec3 center, vec3 axis) {
   const float radius = tracer.sphere().radius;
   const mat3 frame = sampleFrame(light);
   double flux = 0;
   for (const PhotonPath& path : tracer.trace(light, 60000, 4)) {
     const vec3 origin = tracer.sphere().center + radius * (frame * path.origin);
     const vec3 direction = frame * path.direction;
-    const float along = dot(centre - origin, axis) / dot(direction, axis);
+    const float along = dot(center - origin, axis) / dot(direction, axis);
     if (along < 0 || along > radius * path.length || dot(direction, axis) <= 0) continue;
-    if (length(origin + along * direction - centre) < kDisc) flux += double(path.flux.y * radius * radius);
+    if (length(origin + along * direction - center) < kDisc) flux += double(path.flux.y * radius * radius);
   }
   return flux;
 }
@@ -61,7 +61,7 @@ class IrradianceVolumeAs : public testing::TestWithParam<uint32_t> {
   const Material silver_ = silver();
 };
 
-// Through discs behind a glass ball, at, before and beyond its focus (1.5 radii from the centre), straight
+// Through discs behind a glass ball, at, before and beyond its focus (1.5 radii from the center), straight
 // and oblique.
 TEST_P(IrradianceVolumeAs, KeepsTheFluxOfABall) {
   IrradianceVolume volume(ball, glass(), settings(90, 30), {});

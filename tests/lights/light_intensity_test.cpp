@@ -87,7 +87,7 @@ TEST_F(SpotLight, AGoboStandsUprightForWhoLooksAlongTheLight) {
     expectColor(at(0.6f, 0.6f), kGreen);
     expectColor(at(-0.6f, -0.6f), kBlue);
     expectColor(at(0.6f, -0.6f), kWhite);
-    // Bilinear: between the centres of the texels at -0.5 and 0.5 the middle is the mean of all four.
+    // Bilinear: between the centers of the texels at -0.5 and 0.5 the middle is the mean of all four.
     expectColor(at(0, 0), 0.25f * (kRed + kGreen + kBlue + kWhite), 1e-4);
     expectColor(at(0.25f, 0.6f), 0.25f * kRed + 0.75f * kGreen, 1e-4);
   }
@@ -115,8 +115,8 @@ TEST_F(SpotLight, TheShorterSideOfAGoboFillsTheCone) {
 }
 
 TEST_F(SpotLight, AGobosTexelsAreLinearAndWhatIsNotCoveredIsDark) {
-  writePng(folder() / "grey.png", {2, 1, 4, {188, 188, 188, 255, 255, 255, 255, 0}});
-  const Scene scene = load(kDown + "intensity = 1\ngobo = \"grey.png\"\n");
+  writePng(folder() / "gray.png", {2, 1, 4, {188, 188, 188, 255, 255, 255, 255, 0}});
+  const Scene scene = load(kDown + "intensity = 1\ngobo = \"gray.png\"\n");
   ASSERT_EQ(scene.textures.size(), 1u);
   EXPECT_NEAR(scene.textures[0].texels[0].x, 0.5, 0.005);  // sRGB 188 is half the light
   EXPECT_EQ(vec3(scene.textures[0].texels[1]), vec3(0));

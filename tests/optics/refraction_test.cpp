@@ -16,7 +16,7 @@ TEST(Fresnel, NormalIncidenceOnGlassReflectsFourPercent) {
   EXPECT_NEAR(fresnelReflectance(1, 1.5f), 0.04f, 1e-6f);
 }
 
-TEST(Fresnel, HalfOfTheLightIsGoneOfOnePolarisationAtBrewstersAngle) {
+TEST(Fresnel, HalfOfTheLightIsGoneOfOnePolarizationAtBrewstersAngle) {
   const float brewster = 56.30993f * kDegrees;
   // Only the perpendicular part is reflected there: ((n^2 - 1) / (n^2 + 1))^2 of it.
   const float perpendicular = std::pow((2.25f - 1) / (2.25f + 1), 2.0f);

@@ -49,7 +49,7 @@ vec3 sunAt(double degreesFromVertical) {
   return {std::sin(angle), -std::cos(angle), 0};
 }
 
-// A pane of 0.2 m over a sensor of half a metre.
+// A pane of 0.2 m over a sensor of half a meter.
 Scene pane(const Material& material, double degreesFromVertical) {
   Scene scene;
   add(scene, makeBox({2.2f, 0.2f, 2.2f}), material);
@@ -185,7 +185,7 @@ TEST(ParallelPlate, ShiftsABeamAsSnellSays) {
   const FloorProfile profile(
       scene, 1, kColumns, [&](vec3 p) { return columnOf(double(p.x)); }, Paths::transmission);
 
-  // Ray by ray: in the air it falls 1.5 m in all, in the glass half a metre.
+  // Ray by ray: in the air it falls 1.5 m in all, in the glass half a meter.
   std::vector<double> expected(kColumns + 1, 0.0);
   constexpr int kRings = 1500, kSectors = 720;
   const Light& light = scene.lights[0];
@@ -229,7 +229,7 @@ TEST(BallLens, MatchesTheClosedFormBeforeInAndPastTheFocus) {
   }
 }
 
-// A mirror ring of half a metre on the floor, the sun at 30 degrees.
+// A mirror ring of half a meter on the floor, the sun at 30 degrees.
 Scene mirrorRing() {
   Scene scene;
   const double elevation = glm::radians(30.0);
@@ -255,7 +255,7 @@ TEST(MirrorRing, MatchesTheClosedForm) {
 }
 
 TEST(MirrorRing, HasTheCuspOfTheNephroidAtHalfItsRadius) {
-  constexpr std::size_t kParts = 50;  // of a centimetre, along the axis
+  constexpr std::size_t kParts = 50;  // of a centimeter, along the axis
   const auto partOf = [](double x, double z) {
     return x >= 0 && x < 0.5 && std::abs(z) < 0.002 ? std::size_t(x * 100) : kParts;
   };

@@ -97,7 +97,7 @@ TEST(WhiteFurnace, HidesGlassThatReachesIntoGlass) {
   expectAllAround(scene, 1, kAstray);
 }
 
-TEST(WhiteFurnace, LosesToTheColourOfAMirrorAlone) {
+TEST(WhiteFurnace, LosesToTheColorOfAMirrorAlone) {
   Scene scene = lookingAtTheOrigin(4);
   add(scene, makeBox({10, 10, 0.1f}), mirror(0.25f));
   scene.camera.position = {0, 0, 4};

@@ -1,4 +1,4 @@
-// A prism turns each wavelength by its own angle, and lays the colours out in their order.
+// A prism turns each wavelength by its own angle, and lays the colors out in their order.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -72,7 +72,7 @@ double hue(vec3 color) {
       std::atan2(std::sqrt(3.0) * double(color.y - color.z), double(2 * color.x - color.y - color.z)));
 }
 
-TEST(Prism, LaysTheColoursOutInTheirOrder) {
+TEST(Prism, LaysTheColorsOutInTheirOrder) {
   const Scene scene = prism(0.01f);
   const double middle = incidence() - kApex / 2;  // radians downward
   const vec3 forward(std::cos(middle), -std::sin(middle), 0), along(-std::sin(middle), -std::cos(middle), 0);

@@ -46,7 +46,7 @@ TEST(Sampling, OfADiscIsUniformInArea) {
   Random random(2);
   WeightedHistogram parts(16 * 16);
   for (int i = 0; i < kSamples; ++i) {
-    const glm::dvec2 p(sampleDisc(uniformPair(random)));
+    const glm::dvec2 p(sampleDisk(uniformPair(random)));
     parts.add(binOf(dot(p, p), 16) * 16 + binOf(turnOf(p.x, p.y), 16));
   }
   parts.expectUniform();
@@ -70,7 +70,7 @@ TEST(Sampling, OfDistancesFallsAsTheLightDoes) {
   };
   for (const auto& [extinction, length] :
        {Case{0.5f, 4}, Case{0.5f, kInfinity}, Case{3, 100}, Case{1e-3f, 1}, Case{1e-6f, 2}, Case{0, 2}}) {
-    SCOPED_TRACE(testing::Message() << extinction << " per metre along " << length);
+    SCOPED_TRACE(testing::Message() << extinction << " per meter along " << length);
     Random random(4);
     WeightedHistogram parts(64);
     const double sigma(extinction), end(length);

@@ -20,7 +20,7 @@ Scene floorScene() {
   Scene scene;
   scene.camera.position = {0, 4, 3};
   scene.camera.target = {0, 0, 0};
-  scene.materials.push_back({.name = "grey", .color = vec3(0.5f, 0.4f, 0.3f)});
+  scene.materials.push_back({.name = "gray", .color = vec3(0.5f, 0.4f, 0.3f)});
   scene.meshes.push_back(plane(6));
   scene.objects.push_back({"floor", 0, 0, {}, std::nullopt});
   return scene;
@@ -314,7 +314,7 @@ TEST_F(Frame, ALightInsideARoomShadesNoneOfItsWalls) {
   }
 }
 
-TEST_F(Frame, ATextureColoursADiffuseSurface) {
+TEST_F(Frame, ATextureColorsADiffuseSurface) {
   Scene scene = floorScene();
   Texture halves{"halves", 64, 1, std::vector<vec4>(32, vec4(1, 0, 0, 1))};
   halves.texels.resize(64, vec4(0, 1, 0, 1));
@@ -369,7 +369,7 @@ TEST_F(Frame, EmissionMirrorsAndBackgroundAreSeen) {
   EXPECT_EQ(image.find("depth.Z")->at(0), 0);
 }
 
-// Above black and below its shoulder the tone mapper takes 0.04 off and leaves colours as they are.
+// Above black and below its shoulder the tone mapper takes 0.04 off and leaves colors as they are.
 TEST_F(Frame, APictureIsExposedLuminanceInSrgb) {
   Scene scene = floorScene();
   scene.materials[0].color = vec3(0);

@@ -67,7 +67,7 @@ Light spot(float outerAngle) {
 
 class LightShapes : public GpuTest {
  protected:
-  // The part `direct` in each of six directions, as the colour at points of the walls.
+  // The part `direct` in each of six directions, as the color at points of the walls.
   struct Sample {
     vec3 point, normal, lux;
   };

@@ -1,4 +1,4 @@
-// Gobos, profiles, colours, lines, panels and skies in direct light and beams, against the reference.
+// Gobos, profiles, colors, lines, panels and skies in direct light and beams, against the reference.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -34,7 +34,7 @@ Light lampAtBall() {
   return light;
 }
 
-// Squares of `period` texels, in colours that add up to white.
+// Squares of `period` texels, in colors that add up to white.
 Texture checkers(uint32_t size, uint32_t period) {
   Texture gobo{"checkers", size, size, {}};
   for (uint32_t y = 0; y < size; ++y)
@@ -94,7 +94,7 @@ TEST(LightThroughABall, OfAProfile) {
   expectAsReference(scene);
 }
 
-TEST(LightThroughABall, OfAGobosCopyInAnotherColourAndALine) {
+TEST(LightThroughABall, OfAGobosCopyInAnotherColorAndALine) {
   Scene scene = floorAndBall();
   scene.textures.push_back(checkers(32, 4));
   Light spot = lampAtBall();

@@ -22,7 +22,7 @@ void addPlane(Scene& scene, vec3 color, const Placement& placement, vec2 size) {
                            placement, std::nullopt});
 }
 
-// A floor and a wall of stripes of four colours, and `mesh` of glass half a metre over the floor. Ambient
+// A floor and a wall of stripes of four colors, and `mesh` of glass half a meter over the floor. Ambient
 // light alone.
 Scene stripesBehind(Mesh mesh, const Material& material) {
   Scene scene;
@@ -68,7 +68,7 @@ class SightGpuTest : public GpuTest {
     return pixelsOf(Drawing(device(), scene, settings, {.size = size}).layers(scene));
   }
 
-  // Part of the pixels of a disc about the middle of the picture whose colour is not to be found, to within a
+  // Part of the pixels of a disc about the middle of the picture whose color is not to be found, to within a
   // tenth of full reflectance, within two pixels of there in the other picture. The disc's radius: pixels.
   static float strayPart(const std::vector<vec3>& drawn, const std::vector<vec3>& exact, vec2 center,
                          float radius) {

@@ -6,7 +6,7 @@
 
 namespace nephroid {
 
-// A glass ball of 6,400 vertices whose centre is `height` (m) over a floor, under a point light.
+// A glass ball of 6,400 vertices whose center is `height` (m) over a floor, under a point light.
 inline Scene ballOverFloor(float height, vec3 light) {
   Scene scene;
   scene.materials.resize(2);

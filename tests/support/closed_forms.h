@@ -22,7 +22,7 @@ inline double fresnel(double cosIncident, double eta) {
 
 // Lumens on rings of a floor around the axis of a glass ball under a vertical sun of 1 lux, reflections left
 // out. Light that comes in at a distance from the axis is turned by twice (incidence - refraction). `height`
-// (m) of the ball's centre over the floor.
+// (m) of the ball's center over the floor.
 inline std::vector<double> ballLensRings(double radius, double height, double ior, double ringWidth,
                                          std::size_t rings) {
   constexpr int kSteps = 400000;

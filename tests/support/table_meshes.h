@@ -11,8 +11,8 @@ namespace nephroid {
 
 inline constexpr float kPi = std::numbers::pi_v<float>;
 
-// A ball around `centre` of (rings + 1) (2 rings + 1) vertices with exact normals, added to `mesh`.
-inline void addBall(Mesh& mesh, vec3 centre, float radius, uint32_t rings) {
+// A ball around `center` of (rings + 1) (2 rings + 1) vertices with exact normals, added to `mesh`.
+inline void addBall(Mesh& mesh, vec3 center, float radius, uint32_t rings) {
   mesh.isFinished = true;
   const auto first = static_cast<uint32_t>(mesh.positions.size());
   const uint32_t row = 2 * rings + 1;
@@ -22,7 +22,7 @@ inline void addBall(Mesh& mesh, vec3 centre, float radius, uint32_t rings) {
       const float azimuth = kPi * float(j) / float(rings);
       const vec3 normal = normalize(
           vec3(std::sin(polar) * std::cos(azimuth), std::cos(polar), std::sin(polar) * std::sin(azimuth)));
-      mesh.positions.push_back(centre + radius * normal);
+      mesh.positions.push_back(center + radius * normal);
       mesh.normals.push_back(normal);
     }
   }

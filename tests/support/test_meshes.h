@@ -1,4 +1,4 @@
-// Small meshes for tests, centred on the origin.
+// Small meshes for tests, centerd on the origin.
 #pragma once
 
 #include "scene/scene.h"

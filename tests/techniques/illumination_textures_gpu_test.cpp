@@ -21,7 +21,7 @@ constexpr uint32_t kPlanes = 3;
 constexpr float kFocus = 0.5f;  // m along axisW, where beamsThroughFocus meet
 constexpr double kFluxTolerance = 1e-5;
 
-// Planes at depths 0, 0.5 and 1 below a square metre, the outer window three times as wide. The flux is
+// Planes at depths 0, 0.5 and 1 below a square meter, the outer window three times as wide. The flux is
 // theirs in all. What falls inside the inner window is for the outer one to leave out: when that is `asked`,
 // the inner one stands aside.
 PlaneSet planesFor(const std::vector<Beam>& beams, uint32_t asked = 0) {
@@ -35,13 +35,13 @@ PlaneSet planesFor(const std::vector<Beam>& beams, uint32_t asked = 0) {
   set.windows[1] = {vec2(-1.5f), float(kSize) / 3, float(kSize)};
   vec3 flux(0);
   for (const Beam& beam : beams) flux += beam.flux;
-  set.luxMetresSquaredPerUnit = flux / kUnitsOfAllFlux;
+  set.luxMetersSquaredPerUnit = flux / kUnitsOfAllFlux;
   set.nearestDepth = -1;
   set.farthestDepth = 2;
   return set;
 }
 
-// From a metre above the first plane through these places on it, toward `target` from each or straight on.
+// From a meter above the first plane through these places on it, toward `target` from each or straight on.
 Beam beamThrough(vec2 a, vec2 b, vec2 c, std::optional<vec3> target = std::nullopt) {
   Beam beam{};
   const vec2 places[] = {a, b, c};
@@ -55,7 +55,7 @@ Beam beamThrough(vec2 a, vec2 b, vec2 c, std::optional<vec3> target = std::nullo
   return beam;
 }
 
-// Beams of a millimetre to a third of a metre, none of them thin, all of whose light falls inside the inner
+// Beams of a millimeter to a third of a meter, none of them thin, all of whose light falls inside the inner
 // window.
 std::vector<Beam> someBeams(uint32_t count, std::optional<vec3> target = std::nullopt) {
   Random random(3);
@@ -132,7 +132,7 @@ TEST_F(IlluminationTexturesGpuTest, HoldWhatTheHostDeposits) {
         const auto expected = depositFlux(beams, planeGrid(set, plane, window), {kSize, kSize});
         for (uint32_t texel = 0; texel < kSize * kSize; ++texel)
           for (uint32_t c = 0; c < channels; ++c) {
-            const double wanted = expected[texel][int(c)] / double(set.luxMetresSquaredPerUnit[int(c)]);
+            const double wanted = expected[texel][int(c)] / double(set.luxMetersSquaredPerUnit[int(c)]);
             // Half a unit for each beam that may meet the texel, and what float leaves of the corners'
             // digits.
             ASSERT_NEAR(units[textureIndex(set, plane, window) + c * layersOfChannel(set)][texel], wanted,
@@ -181,7 +181,7 @@ TEST_F(IlluminationTexturesGpuTest, HoldTheirPartOfABeamLargerThanThem) {
   const PlaneSet set = planesFor(beams);
   const Textures units = deposit(beams, set);
   for (uint32_t window = 0; window < kWindows; ++window) {
-    const double side = kSize / set.windows[window].texelsPerMetre;
+    const double side = kSize / set.windows[window].texelsPerMeter;
     const double halfUnits = 0.5 * kSize * kSize / double(kUnitsOfAllFlux);
     EXPECT_NEAR(fluxOn(units, set, 1, window), side * side / 5000, halfUnits + 1e-4 * side * side / 5000);
   }
@@ -202,7 +202,7 @@ TEST_F(IlluminationTexturesGpuTest, HoldLightWhereItArrivesWhenTheyFollowReceive
     set.firstDepth = depth - set.depthStep;
     const auto expected = depositFlux(beams, planeGrid(set, 1, window), {kSize, kSize});
     for (uint32_t texel = 0; texel < kSize * kSize; ++texel) {
-      const double wanted = expected[texel].x / double(set.luxMetresSquaredPerUnit.x);
+      const double wanted = expected[texel].x / double(set.luxMetersSquaredPerUnit.x);
       ASSERT_NEAR(units[textureIndex(set, 1, window)][texel], wanted,
                   0.5 * double(beams.size()) + 1e-3 * wanted + 1e-6 * double(kUnitsOfAllFlux))
           << "window " << window << ", texel " << texel;

@@ -81,17 +81,17 @@ std::vector<vec3> expectedLux(SceneVolumes& volumes, const Scene& scene, const T
                               const std::vector<vec4>& points, vec3 normal) {
   const Placement& placement = scene.objects[0].placement;
   IrradianceVolume& volume = *volumes.ofObject[0];
-  const vec3 centre = placement.point(volume.sphere().center), toLamp = scene.lights[1].position - centre;
+  const vec3 center = placement.point(volume.sphere().center), toLamp = scene.lights[1].position - center;
   std::vector<vec3> lux(points.size(), vec3(0));
   const auto add = [&](vec3 direction, vec3 power, vec3 nearness) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (points[i].w == 0) continue;
       // What crosses a surface there crosses its image.
-      const vec3 x = vec3(points[i]) - centre;
+      const vec3 x = vec3(points[i]) - center;
       const float scale = nearScale(x, nearness);
       const vec3 image = scale * scale * scale * (normal - dot(normal, x) * nearness);
       lux[i] += power * length(image) *
-                volume.illuminance(placement.inversePoint(centre + scale * x),
+                volume.illuminance(placement.inversePoint(center + scale * x),
                                    placement.inverseDirection(normalize(image)),
                                    placement.inverseDirection(direction),
                                    settings.own.of<IrradianceVolumeSettings>().lightInterpolation);

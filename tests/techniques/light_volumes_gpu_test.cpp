@@ -102,7 +102,7 @@ double relativeError(const std::vector<double>& lux, const std::vector<double>& 
   return std::sqrt(squares / double(lux.size())) / (exactSum / double(lux.size()));
 }
 
-// Before, at and past the focus, with as many vertices a metre as 200 x 200 on 2 m x 2 m.
+// Before, at and past the focus, with as many vertices a meter as 200 x 200 on 2 m x 2 m.
 TEST_F(LightVolumesGpuTest, ASineFocusesWhereItsMappingSays) {
   Water water;
   water.size = {3, 0.4f};

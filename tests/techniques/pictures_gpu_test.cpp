@@ -5,7 +5,7 @@
 #include "support/ball_over_floor.h"
 #include "support/drawing.h"
 #include "support/gpu_fixture.h"
-#include "support/quantised_source.h"
+#include "support/quantized_source.h"
 
 namespace nephroid {
 namespace {
@@ -72,14 +72,14 @@ TEST_F(TechniquePicturesGpuTest, TheBitsOfATableChangeNoPixelByAHundredth) {
     const auto drawn = [&](bool isExact) {
       return draw(scene, technique,
                   [&](const Scene& now, const TracedSource& traced) {
-                    return std::make_unique<QuantisedSource>(now, traced, isExact);
+                    return std::make_unique<QuantizedSource>(now, traced, isExact);
                   })
           .picture;
     };
-    const ByteImage exact = drawn(true), quantised = drawn(false);
+    const ByteImage exact = drawn(true), quantized = drawn(false);
     int largest = 0;
     for (std::size_t i = 0; i < exact.bytes.size(); ++i)
-      largest = std::max(largest, std::abs(int(exact.bytes[i]) - int(quantised.bytes[i])));
+      largest = std::max(largest, std::abs(int(exact.bytes[i]) - int(quantized.bytes[i])));
     EXPECT_LT(largest, 0.01 * 255) << technique;
   }
 }

@@ -46,7 +46,7 @@ class ScatteringGpuTest : public GpuTest {
   }
 };
 
-// 6 m of still water, a metre deep.
+// 6 m of still water, a meter deep.
 Scene pool(vec3 sunDirection) {
   Scene scene;
   scene.materials.resize(2);
@@ -95,7 +95,7 @@ TEST_F(ScatteringGpuTest, FromAboveStillWaterIsItsClosedForm) {
   }
 }
 
-// Half a metre down, over a metre to a wall.
+// Half a meter down, over a meter to a wall.
 Scene acrossThePool(vec3 sun) {
   Scene scene = pool(sun);
   scene.meshes.push_back(makeBox({0.2f, 0.7f, 4}));

@@ -13,7 +13,7 @@
 #include "lights/emitters.h"
 #include "render/measure.h"
 #include "support/ball_over_floor.h"
-#include "support/quantised_source.h"
+#include "support/quantized_source.h"
 #include "transport/queries.h"
 #include "transport/table/entry.h"
 #include "transport/table/table_source.h"
@@ -31,7 +31,7 @@ TEST(TableSource, ItsBitsChangeTheImageByLessThanOnePercent) {
   Progress progress;
   Stats stats;
   const auto read = [&](bool isExact) {
-    const QuantisedSource source(scene, traced, isExact);
+    const QuantizedSource source(scene, traced, isExact);
     return measureBeams(scene, rays, source, kFloor, Paths::transmission, 0, progress, stats);
   };
   const SensorLayer exact = read(true), coarse = read(false);

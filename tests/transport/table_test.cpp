@@ -142,7 +142,7 @@ TEST(TableFrame, IsOrthonormalForEveryNormal) {
 // the sphere from no nearer than 1/sqrt(3): sqrt(1 + 1 + 4) sqrt(3) / 65535.
 constexpr double kDirectionBound = 4.2427 / 65535;
 
-TEST(TableQuantisation, IsFinerThanThePapers) {
+TEST(TableQuantization, IsFinerThanThePapers) {
   static_assert(kDirectionBound < 0.0143e-2);
   const Mesh ball = ballMesh(16);
   const TransportTable table = exactBallTable(ball, 129);
@@ -174,7 +174,7 @@ TEST(TableQuantisation, IsFinerThanThePapers) {
   RecordProperty("worst_direction_percent", std::to_string(100 * worstDirection));
 }
 
-TEST(TableQuantisation, OctahedralCodesHoldForEveryDirection) {
+TEST(TableQuantization, OctahedralCodesHoldForEveryDirection) {
   Random random(5);
   for (int i = 0; i < 200000; ++i) {
     vec3 direction = randomIncidence(random);

@@ -171,12 +171,12 @@ TEST(Picking, ALightFollowsItsHandle) {
   }
 }
 
-TEST(Picking, TurningKeepsTheCentre) {
+TEST(Picking, TurningKeepsTheCenter) {
   Scene scene = ballScene();
   Object& ball = scene.objects[1];
-  const vec3 centre = centreOf(scene, ball);
-  turn(ball.placement, centre, {0, 0, 1}, 0.5f);
-  EXPECT_LT(distance(centreOf(scene, ball), centre), 1e-4f);
+  const vec3 center = centerOf(scene, ball);
+  turn(ball.placement, center, {0, 0, 1}, 0.5f);
+  EXPECT_LT(distance(centerOf(scene, ball), center), 1e-4f);
   const float along = length(scene.lights[2].end - scene.lights[2].position);
   turn(scene.lights[2], {0, 1, 0}, 0.5f);
   EXPECT_NEAR(length(scene.lights[2].end - scene.lights[2].position), along, 1e-5f);
@@ -248,19 +248,19 @@ TEST(Preparations, HandOnWhatWentWrong) {
   EXPECT_THROW(preparation.take(), InputError);
 }
 
-TEST(Preparations, AreCancelled) {
-  std::atomic<bool> isLoading = false, isCancelled = false;
+TEST(Preparations, AreCanceled) {
+  std::atomic<bool> isLoading = false, isCanceled = false;
   Preparation preparation(
       [&] {
         isLoading = true;
-        while (!isCancelled) std::this_thread::yield();
+        while (!isCanceled) std::this_thread::yield();
         return ballScene();
       },
       {});
   while (!isLoading) std::this_thread::yield();
   EXPECT_EQ(preparation.progress().name, "Loading the scene");
   preparation.cancel();
-  isCancelled = true;
+  isCanceled = true;
   waitFor(preparation);
   EXPECT_THROW(preparation.take(), Interrupted);
 }

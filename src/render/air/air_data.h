@@ -1,4 +1,4 @@
-// What the passes that show the air are told of one light, for C++ and GLSL.
+// The data of one light for the passes that draw the air, for C++ and GLSL.
 #ifndef NEPHROID_RENDER_AIR_AIR_DATA_H
 #define NEPHROID_RENDER_AIR_AIR_DATA_H
 
@@ -9,33 +9,35 @@
 
 SHARED_BEGIN
 
-// A ray of sight at the place (x, y) of clip space goes along middle + x * right + y * down, whose part along
-// the view is 1.
+// The view ray at the place (x, y) of clip space has the direction middle + x * right + y * down, whose
+// component along the camera's axis is 1.
 struct AirSight {
   vec3 eye;  // m
   vec3 middle;
   vec3 right;
   vec3 down;
-  float nearest;  // m along the view over the depth image's value
-  float pace;     // 1/m: where light comes from afar, planes stand as densely as light is left in such air
-  uint stride;    // pixels of the depth image from one ray to the next
+  float nearest;  // m; divided by the depth image's value it is the depth along the camera's axis
+  float pace;   // 1/m; for light from afar, planes are distributed like the light that is left in air of this
+                // extinction
+  uint stride;  // pixels of the depth image from one ray to the next
 };
 
-// Sampling planes (n of Dobashi 2002), each with sub-sample planes (m) on which the light that arrives is
-// looked up. With a tolerance m is a power of two, and sub-planes are used where the light changes so much
-// that it would be wrong by more than that part of its peak over the whole ray; with none everywhere.
+// The numbers of sampling planes (n of Dobashi 2002) and of sub-sample planes for each (m), on which the
+// arriving light is looked up. With a tolerance, m is a power of two, and sub-planes are used only where the
+// error would otherwise be larger than this part of the light's peak on the whole ray. With a tolerance of 0
+// they are used everywhere.
 struct AirPlanes {
   uint planes;
   uint subplanes;
   float tolerance;
 };
 
-// Where density is given cell by cell: a box, and which images tell how much of it lies before its nodes, as
-// seen from a light.
+// The box of air whose density is given in cells, and the images with the density between a light and the
+// box's nodes.
 struct AirBox {
   vec3 corner;       // m
   vec3 inverseSize;  // 1/m
-  float firstLayer;  // of this light's images; those of the eye begin at 0
+  float firstLayer;  // of this light's images; the layers of the eye begin at 0
 };
 
 struct AirLight {
@@ -45,7 +47,7 @@ struct AirLight {
   AirBox box;
 };
 
-// Sums up the density between a light, or the eye, and the nodes of the box.
+// Constants of the pass that sums the density between a light, or the eye, and the nodes of the box.
 struct AirDepthConstants {
   vec3 source;  // m
   uint firstLayer;
@@ -53,7 +55,7 @@ struct AirDepthConstants {
   vec3 size;    // m
 };
 
-// Along each side of the box, its faces among them.
+// The number of nodes along each side of the box, with those on its faces.
 SHARED_CONSTANT uint kAirNodes = 33u;
 
 SHARED_END

@@ -1,4 +1,4 @@
-// Air whose density is given cell by cell, on the device.
+// Air whose density is given in cells, on the device.
 #pragma once
 
 #include <vector>
@@ -12,16 +12,16 @@ namespace nephroid {
 
 class DensityBox {
  public:
-  // The device outlives it. Where the scene's air has no grid the images are there all the same, and empty.
+  // The device must outlive it. Where the scene's air has no grid, the images exist too, but are empty.
   DensityBox(gpu::Device& device, const Scene& scene);
 
   bool isThere() const { return isThere_; }
   AirBox of(uint32_t light) const;
 
-  // Takes the places of the eye and the lights.
+  // Takes the positions of the eye and the lights.
   void update(const Scene& scene);
 
-  // How much air lies between each of them and the nodes of the box.
+  // Computes the density between the eye or a light and each node of the box.
   void record(gpu::CommandList& commands);
 
   const gpu::Image& density() const { return density_; }

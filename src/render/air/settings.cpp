@@ -5,9 +5,9 @@ namespace {
 
 // Users give it in thousandths.
 constexpr Setting errorSetting() {
-  Setting error = wholeSetting<&ShaftSettings::error>(
-      "air-error", 1, 1000,
-      "Mean error of shafts of light that planes are chosen for, in thousandths of their mean");
+  Setting error = wholeSetting<&ShaftSettings::error>("air-error", 1, 1000,
+                                                      "Mean error of shafts of light, in thousandths of "
+                                                      "their mean, for which the number of planes is chosen");
   error.get = [](const void* owner) {
     return 1000 * double(static_cast<const ShaftSettings*>(owner)->error) + 1e-4;
   };
@@ -21,13 +21,13 @@ constexpr Setting errorSetting() {
 
 std::span<const Setting> shaftSettings() {
   static constexpr Setting kSettings[] = {
-      wholeSetting<&ShaftSettings::planes>("air-planes", 0, 10000,
-                                           "Sampling planes of shafts of light on each ray; 0: as many as "
-                                           "--air-error asks for, for each light"),
-      wholeSetting<&ShaftSettings::subplanes>("air-subplanes", 0, 256,
-                                              "Sub-sample planes between two sampling planes, used "
-                                              "everywhere; 0: as many as --air-error asks for, "
-                                              "used where light changes"),
+      wholeSetting<&ShaftSettings::planes>(
+          "air-planes", 0, 10000,
+          "Sampling planes of shafts of light on each ray; 0: as many as --air-error needs, for each light"),
+      wholeSetting<&ShaftSettings::subplanes>(
+          "air-subplanes", 0, 256,
+          "Sub-sample planes between two sampling planes, used "
+          "everywhere; 0: as many as --air-error needs, used only where light changes"),
       errorSetting(),
   };
   return kSettings;

@@ -6,10 +6,10 @@
 namespace nephroid {
 
 struct ShaftSettings {
-  uint32_t planes = 0;     // sampling planes on each ray; 0: as many as `error` asks for
-  uint32_t subplanes = 0;  // sub-sample planes of each, used everywhere; 0: as many as `error` asks for, used
-                           // where light changes
-  float error = 0.004f;    // mean error over mean luminance that planes are chosen for
+  uint32_t planes = 0;     // sampling planes on each ray; 0: as many as `error` needs
+  uint32_t subplanes = 0;  // sub-sample planes of each, used everywhere; 0: as many as `error` needs, used
+                           // only where light changes
+  float error = 0.004f;    // the mean error, divided by the mean luminance, for which planes are chosen
   bool operator==(const ShaftSettings&) const = default;
 };
 

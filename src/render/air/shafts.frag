@@ -32,7 +32,7 @@ struct Sight {
   vec3 origin;      // m from the light, or from the maps' aim where light comes from afar
   float closest;    // m along the ray, of the place next to the light
   float height;     // m from the light there
-  vec2 part;        // m along the ray, of what is looked at
+  vec2 part;        // m along the ray, the begin and end of the part that is computed
   float span;       // the angle of that part, as the light sees it; for light from afar what the air takes of
                     // light on that part
   float start;      // m along the ray from the closest place, where the part begins
@@ -220,9 +220,9 @@ vec3 scatteredFrom(vec3 origin, vec3 direction, float reach, uint firstMap) {
 void main() {
   const ivec2 pixel = ivec2(floor(gl_FragCoord.xy) * depths.z + 0.5 * (depths.z - 1));
   const float depth = texelFetch(depthImage, pixel, 0).r;
-  const float perMetre = length(ray);
-  const float reach = depth > 0 ? depths.x / depth * perMetre : kFarthestAir;
-  const vec3 direction = ray / perMetre;
+  const float perMeter = length(ray);
+  const float reach = depth > 0 ? depths.x / depth * perMeter : kFarthestAir;
+  const vec3 direction = ray / perMeter;
   vec3 sum = vec3(0);
   if (kIsLine) {
     for (uint i = 0; i < constants.samples; ++i)

@@ -1,5 +1,5 @@
-// Shafts of light: what the air between the objects scatters of the lights toward the eye, and what it takes
-// away (Dobashi 2002).
+// Shafts of light: the light that the air scatters toward the eye, and the light that it absorbs on the way
+// (Dobashi 2002).
 #pragma once
 
 #include <map>
@@ -16,41 +16,41 @@
 
 namespace nephroid {
 
-// One frame is update, then, when shadow maps and depths are drawn, choosePlanes, then record.
+// For each frame: call update; then, after shadow maps and depths were drawn, choosePlanes; then record.
 class Shafts {
  public:
-  // The device outlives it. The air is that of `scene`; where there is none nothing is done.
+  // The device must outlive it. Without air in `scene` it does nothing.
   Shafts(gpu::Device& device, const Scene& scene, uvec2 pictureSize, const ShaftSettings& settings);
 
   explicit operator bool() const { return bool(image_); }
 
-  // Pictures are of another size from now on.
+  // Sets another size (pixels) for the following pictures.
   void resize(uvec2 pictureSize);
 
-  // Nothing is in use by the device.
+  // The device must not be using anything of this object.
   void update(const Scene& scene, const View& view);
 
-  // What DirectLight::update asks for.
+  // The data for DirectLight::update.
   LightsInAir lightsInAir() const;
 
-  // What choosePlanes, record and DirectLight::record look up: how much air there is on the way from the
-  // lights.
+  // Computes the density of the air between the lights and points, which choosePlanes, record and
+  // DirectLight::record need.
   void recordDepths(gpu::CommandList& commands) {
     if (box_) box_->record(commands);
   }
 
-  // Sees each light by a few rays with more and more planes, until they change no more than is asked for.
-  // Submits work of its own.
+  // Chooses the number of planes for each light: draws a few rays with more and more planes, until the result
+  // changes less than the error of the settings. Submits its own work to the device.
   void choosePlanes(const DirectLight& directLight, const GpuScene& gpuScene, const gpu::Image& depth);
 
-  // `depth` is the frame's: of the nearest surface.
+  // `depth`: the frame's depth image of the nearest surface.
   void record(gpu::CommandList& commands, const DirectLight& directLight, const GpuScene& gpuScene,
               const gpu::Image& depth);
 
   // rgba32f: rgb luminance (nit), a the part of light from the nearest surface that comes to the eye.
   const gpu::Image& image() const { return image_; }
 
-  // Of the last frame, of each light.
+  // The planes of each light in the last frame.
   const std::vector<AirPlanes>& planes() const { return planes_; }
 
  private:

@@ -1,5 +1,5 @@
-// Where a ray meets a receiver, found in images of the receivers, from tangent plane to tangent plane
-// (geometry/tangent_plane.h).
+// Finds where a ray meets a receiver, with images of the receivers: from tangent plane to tangent plane
+// (geometry/tangent_plane.h). The result is exact on flat receivers, for any size of texels.
 #include "geometry/tangent_plane.h"
 
 #include "render/sight/slice_texel.glsl.h"
@@ -7,12 +7,13 @@
 struct FoundReceiver {
   float distance;  // m along the ray; negative: nothing is found
   vec3 normal;     // unit
-  ivec3 texel;     // where its image shows it
+  ivec3 texel;     // its texel and layer in the images
 };
 
 const FoundReceiver kNothing = FoundReceiver(-1, vec3(0), ivec3(0));
 const int kStepsToPlane = 4;
-// A receiver is looked for first where the rays at the caster's vertices met one, to within this factor.
+// The search begins near the distance at which the rays of the caster's vertices met a receiver, within this
+// factor.
 const float kNearHint = 1.3;
 
 struct SightRay {
@@ -35,7 +36,7 @@ vec2 placeInFrame(SightLayer from, vec3 point) {
          from.size;
 }
 
-// Looks near the ray's point at `distance` for a receiver at range.x to range.y (m along the ray).
+// Looks for a receiver near the ray's point at `distance`, within range.x to range.y (m along the ray).
 FoundReceiver findNear(SightRay ray, float distance, vec2 range, SightLayer from, texture2DArray depths,
                        utexture2DArray normals) {
   const SightFrame frame = from.frame;
@@ -76,10 +77,10 @@ SightLayer faceToward(vec3 point, vec3 center, float reach, int firstLayer) {
                     float(kSurroundingSize));
 }
 
-// The search goes from try to try of these kinds: near the hint in its slice, near it in the images all
-// around; then through the slices from the nearest on (Iwasaki 2005, 5.3), each at several places along the
-// ray; then all around, farther and farther. One loop for all, because software devices run through every
-// branch that is written out.
+// The steps of the search: near the hint in its slice; near the hint in the images of the cube; then through
+// all slices from the nearest (Iwasaki 2005, 5.3), each at several places along the ray; then in the images
+// of the cube at growing distances. All steps share one loop, because software devices execute every branch
+// in the code.
 const int kHintedSlice = 0, kHintedAround = 1, kSlices = 2, kAround = 3, kEnd = 4;
 
 FoundReceiver findReceiver(SightRay ray, float hint, SliceSet set, vec3 center, float reach,

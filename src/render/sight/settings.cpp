@@ -5,9 +5,8 @@ namespace nephroid {
 std::span<const Setting> sightSettings() {
   static constexpr Setting kSettings[] = {
       wholeSetting<&SightSettings::slices>("sight-slices", 0, 16,
-                                           "Sliced object images in which it is looked up what glass shows; "
-                                           "0: as many as the receivers' depth "
-                                           "asks for"),
+                                           "Number of sliced object images, in which the view through glass "
+                                           "is looked up; 0: a number that fits the receivers' depth"),
   };
   return kSettings;
 }

@@ -1,4 +1,4 @@
-// What the passes that show what is seen through glass and in mirrors are told, for C++ and GLSL.
+// The data of the passes that draw the view through glass and in mirrors, for C++ and GLSL.
 #ifndef NEPHROID_RENDER_SIGHT_SIGHT_DATA_H
 #define NEPHROID_RENDER_SIGHT_SIGHT_DATA_H
 
@@ -6,8 +6,8 @@
 
 SHARED_BEGIN
 
-// A corner of a caster's surface as the viewer sees it, and where sight that meets it leaves the caster for
-// the last time (Iwasaki 2005, 5.3). World space.
+// A vertex of a caster's surface that the viewer sees, and the point where the view ray through it leaves the
+// caster for the last time (Iwasaki 2005, 5.3). World space.
 struct SightVertex {
   vec3 position;   // m
   vec3 normal;     // unit
@@ -16,19 +16,19 @@ struct SightVertex {
   vec3 transmittance;
   float reach;           // m from `exit` to the receiver that is met, or kNoReach
   float reflectedReach;  // the same from `position`, for what is reflected there
-  // The receiver that is met at `reach`, for where the images do not show it.
+  // The receiver at `reach`, used where the images do not contain it.
   vec3 receiverNormal;  // unit
   vec3 receiverColor;   // reflectance
   uint receiverMaterial;
   float isReceiverKnown;  // 0 or 1
 };
 
-// A square pyramid of sight.
+// A square pyramid of view.
 struct SightFrame {
   vec3 apex;    // m
   vec3 axisU;   // unit, along a row of texels
   vec3 axisV;   // unit, down the rows
-  vec3 axisW;   // unit, the middle of what is seen
+  vec3 axisW;   // unit, the axis of the pyramid
   float scale;  // 1 over the tangent of half its opening
 };
 
@@ -47,18 +47,18 @@ struct SliceSet {
 SHARED_CONSTANT uint kMostSlices = 16u;
 SHARED_CONSTANT uint kSurroundingSize = 256u;
 
-// `reach` of a vertex from where no receiver is met.
+// `reach` of a vertex whose ray meets no receiver.
 SHARED_CONSTANT float kNoReach = -1.0f;
 
 // Layers overlap by this part of their depth, so that a surface has no seam where it goes through a plane.
 SHARED_CONSTANT float kSliceOverlap = 0.15f;
 
-// Between which depths (m along axisW) slice `i` holds receivers, if its first plane is at `nearDepth`.
+// The range of depths (m along axisW) of a slice whose first plane is at `nearDepth`.
 SHARED_FUNCTION vec2 depthsOfSlice(SliceSet set, float nearDepth) {
   return vec2(nearDepth * (1.0f - kSliceOverlap), nearDepth * set.depthRatio * (1.0f + kSliceOverlap));
 }
 
-// Between which depths the images around a caster hold receivers that are no farther than `reach` (m).
+// The range of depths (m) of the images around a caster. `reach`: m, the farthest receiver.
 SHARED_FUNCTION vec2 depthsAround(float reach) {
   return vec2(1e-4f * reach, 1.01f * reach);
 }
@@ -82,7 +82,7 @@ SHARED_FUNCTION SightFrame faceOfCube(vec3 center, uint face) {
   return frame;
 }
 
-// Draws the receivers that a frame of sight sees between two depths.
+// Constants of the pass that draws the receivers in a pyramid between two depths.
 struct SliceConstants {
   BUFFER_ADDRESS(SceneVertices) vertices;
   BUFFER_ADDRESS(SceneObjects) objects;
@@ -107,7 +107,7 @@ layout(buffer_reference, scalar) readonly buffer SightCamera {
 
 SHARED_BEGIN
 
-// Draws a caster's sight.
+// Constants of the pass that draws a caster with its view rays.
 struct CasterConstants {
   BUFFER_ADDRESS(SightVertices) vertices;
   BUFFER_ADDRESS(SightCamera) camera;
@@ -115,18 +115,18 @@ struct CasterConstants {
   uint marks;   // kSight...
 };
 
-// Looks for where a caster's sight ends.
+// Constants of the pass that finds where the view rays of a caster end.
 struct SightConstants {
   SliceSet slices;
   vec3 center;  // m, of the caster: the surroundings are seen from there
-  float reach;  // m: as far from the center as a receiver may be
+  float reach;  // m, the largest distance of a receiver from the center
   vec3 eye;     // m
   float ior;    // of a dielectric, in the middle channel
   uint number;  // of the caster, from 1
   uint isThinWalled;
 };
 
-// What the transmittance of a pixel is marked with.
+// The marks of a pixel, in the a channel of its transmittance.
 SHARED_CONSTANT uint kSightCaster = 1u;
 SHARED_CONSTANT uint kSightDisperses = 2u;
 

@@ -1,8 +1,8 @@
-// What is seen through glass and in mirrors (Iwasaki 2005, 5.2 and 5.3). Rays of sight leave each caster at
-// its vertices and are interpolated between; each pixel's is looked for in images of the receivers: sliced
-// object images across the mean direction in which sight leaves the caster, and, for what lies far from that,
-// images all around it. The images hold surfaces, not light: what a pixel finds replaces the receiver behind
-// it, and is lit as that would be.
+// Draws the view through glass and in mirrors (Iwasaki 2005, 5.2 and 5.3). View rays are traced at the
+// caster's vertices and interpolated between them. Where the ray of a pixel meets a receiver is found in
+// images of the receivers: sliced object images across the mean direction in which view rays leave the
+// caster, and for other directions the six images of a cube around it. The images hold surfaces, not light.
+// The surface that a pixel finds replaces the receiver behind the caster, and is lit in the same way.
 #pragma once
 
 #include <array>
@@ -23,54 +23,56 @@
 
 namespace nephroid {
 
-// Receivers as frames of sight see them, one a layer.
+// The images of receivers, with one layer for each slice or face of the cube.
 struct ReceiverImages {
   gpu::Image depths;   // d32, reversed
   gpu::Image normals;  // r32ui: octahedral
   gpu::Image albedos;  // rg32ui: packSliceAlbedo
 };
 
-// Water that takes of what is seen through it, or scatters.
+// Water in view that absorbs or scatters.
 struct WaterInSight {
   uint32_t object = 0;
   WayConstants constants{};
   vec3 extinction{0};  // 1/m
 };
 
-// One frame is update, then record.
+// For each frame: call update, then record.
 class SightPass {
  public:
   // The device outlives it.
   SightPass(gpu::Device& device, const SightSettings& settings);
 
-  // What the host does in a frame: rays of sight and where images are taken from, for the scene that
-  // `transport` was placed in. `extents` are those of its meshes. Nothing is in use by the device.
+  // The host's work for a frame: computes view rays and the positions of the images, for the scene in which
+  // `transport` was placed. `extents`: of its meshes. The device must not be using anything of this object.
   void update(SceneTransport& transport, const View& view, uvec2 pictureSize,
               const std::vector<MeshExtent>& extents);
 
-  // Pixels outside see no caster.
+  // The region of the picture that holds all casters.
   const gpu::Region& region() const { return region_; }
   bool disperses() const { return disperses_; }
   bool reflects() const { return reflects_; }
 
-  // Of the frame's slices of receivers, those that may hold any.
+  // The frame's slices that may hold receivers.
   std::vector<Lattice> lattices() const;
 
-  // Ways of sight through water; those from an eye in it, if any, last.
+  // The water in view; last, the water that the eye is in, if any.
   const std::vector<WaterInSight>& waters() const { return waters_; }
 
-  // Where lines of sight go through that water, after `record`. Two images of the picture's size.
+  // Finds the parts of view rays in this water. To be called after `record`. Writes two images of the
+  // picture's size.
   void recordWays(gpu::CommandList& commands, const WaterInSight& water, const FrameImages& images,
                   const gpu::Image& start, const gpu::Image& direction);
 
-  // Puts what casters show over the receivers in `images`, and the casters into their depth, in passes of its
-  // own.
+  // Replaces receivers in `images` by those that casters show, and draws casters into the depth image.
+  // Records its own passes.
   void record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images);
 
  private:
   // A caster that is in the picture.
   struct SeenCaster {
-    std::array<gpu::IndexRange, 3> ranges{};  // of its sight, by channel; one of all, unless it disperses
+    std::array<gpu::IndexRange, 3>
+        ranges{};  // triangles for each channel; only the first is used where it does not disperse
     SightConstants constants{};
     std::array<SliceSet, 3> slices{};  // as ranges
     gpu::Region region{};

@@ -1,4 +1,4 @@
-// What a texel of a sliced object image holds of a receiver besides its depth.
+// The texel of a sliced object image, besides its depth: reflectance and material of a receiver.
 #include "core/octahedral.h"
 
 uvec2 packSliceAlbedo(vec3 albedo, uint material) {

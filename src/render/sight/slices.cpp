@@ -13,7 +13,7 @@ constexpr uint32_t kMostAutomaticSlices = 6;
 // than it lets through.
 constexpr float kLeastTangent = 0.2f;
 constexpr float kMostTangent = 2.5f;
-constexpr float kSightInside = 0.98f;  // of what is seen lies within the opening
+constexpr float kSightInside = 0.98f;  // the part of the view rays within the opening
 
 // How much of the picture, by what is left of its light, looks one way.
 struct Part {
@@ -42,7 +42,7 @@ float tangentFrom(vec3 axis, vec3 direction) {
   return along > 0 ? length(direction - along * axis) / along : kMostTangent;
 }
 
-// The tangent of the cone about `axis` that holds most of what is seen, with a little room.
+// The tangent of the cone around `axis` that holds most of the view rays, with a small margin.
 float openingOf(const std::vector<Part>& parts, vec3 axis) {
   constexpr std::size_t kBins = 128;
   std::array<float, kBins + 1> weights{};

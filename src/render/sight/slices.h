@@ -1,4 +1,4 @@
-// Where the images of receivers that glass and mirrors show are taken from.
+// Chooses the slices for the view through casters.
 #pragma once
 
 #include <array>
@@ -15,13 +15,14 @@ struct ReceiverBounds {
   std::array<vec3, 8> corners{};
 };
 
-// Sample planes across the mean direction in which sight leaves the caster, from where it leaves it to the
-// farthest receiver, wide enough for all but the last few per cent of it. `count` of 0: as many as the depth
-// of the receivers asks for. Of no slices when nothing is to be seen.
+// Sample planes across the mean direction in which view rays leave the caster. They reach from the caster to
+// the farthest receiver, and are wide enough for all view rays but a few percent. `count`: the number of
+// slices; 0: a number that fits the depth of the receivers. The result has no slices where no receiver is
+// seen. `center`, `radius`: m, of the caster.
 SliceSet planSlices(const SightMesh& sight, vec3 center, float radius,
                     std::span<const ReceiverBounds> receivers, uint32_t count);
 
-// Depths (m) along a frame's axis between which a receiver lies.
+// The range of depths (m) of a receiver along the frame's axis.
 vec2 depthsIn(const SightFrame& frame, const ReceiverBounds& receiver);
 
 // Whether a receiver may be seen between two depths.

@@ -72,18 +72,18 @@ class Cutter {
  public:
   Cutter(const TransportSource& sourceToAsk, const TransportQuery& queryOf, const View& viewOf,
          float smallest, float sizeOfCaster, const CasterTriangle& surfaceOf)
-      : source(sourceToAsk),
-        query(queryOf),
-        view(viewOf),
-        smallestSide(smallest),
-        size(sizeOfCaster),
-        surface(surfaceOf) {}
+      : source_(sourceToAsk),
+        query_(queryOf),
+        view_(viewOf),
+        smallestSide_(smallest),
+        size_(sizeOfCaster),
+        surface_(surfaceOf) {}
 
   Refining judge(const Triangle& t, uint32_t cuts, std::vector<Triangle>& pieces) const {
-    if (isOutside(view, t)) return Refining::done;
+    if (isOutside(view_, t)) return Refining::done;
     const float longest = std::max({pixels(t[0], t[1]), pixels(t[1], t[2]), pixels(t[2], t[0])});
     const bool isEven = isSteady(t);
-    if (cuts > 0 && longest >= (isEven ? kLongestStraightSide : smallestSide))
+    if (cuts > 0 && longest >= (isEven ? kLongestStraightSide : smallestSide_))
       return isEven ? Refining::askMiddles : Refining::cut;
     keep(isEven ? t : ofOneRay(t), pieces);
     return Refining::done;
@@ -94,7 +94,7 @@ class Cutter {
     const Corner &a = t[side], &b = t[(side + 1) % 3];
     const vec3 weights = 0.5f * (a.weights + b.weights);
     if (!sameWay(a, b) || pixels(a, b) > kLongestStraightSide) return at(weights, middleWeights(t));
-    Corner middle{weights, surface.positions * weights, normalize(surface.normals * weights), a.ray};
+    Corner middle{weights, surface_.positions * weights, normalize(surface_.normals * weights), a.ray};
     middle.ray.position = 0.5f * (a.ray.position + b.ray.position);
     middle.ray.direction = normalize(a.ray.direction + b.ray.direction);
     middle.ray.transmittance = 0.5f * (a.ray.transmittance + b.ray.transmittance);
@@ -115,20 +115,20 @@ class Cutter {
  private:
   // Its ray starts a little toward `center`, off edges where two surfaces meet.
   Corner at(vec3 weights, vec3 center) const {
-    return {weights, surface.positions * weights, normalize(surface.normals * weights),
-            source.rayAt(query, surface.at(mix(weights, center, kInset)))};
+    return {weights, surface_.positions * weights, normalize(surface_.normals * weights),
+            source_.rayAt(query_, surface_.at(mix(weights, center, kInset)))};
   }
 
   float pixels(const Corner& a, const Corner& b) const {
-    const vec3 eye = query.emitter.position;
-    return distance(a.position, b.position) / (view.pixelAngle * std::max(distance(a.position, eye), 1e-6f));
+    const vec3 eye = query_.emitter.position;
+    return distance(a.position, b.position) / (view_.pixelAngle * std::max(distance(a.position, eye), 1e-6f));
   }
 
   // By where they go: rays of a table and traced ones have no signatures in common.
   bool sameWay(const Corner& a, const Corner& b) const {
     if (isLost(a.ray) || isLost(b.ray)) return isLost(a.ray) && isLost(b.ray);
     return distance(a.ray.direction, b.ray.direction) < kMostTurn &&
-           distance(a.ray.position, b.ray.position) < kMostShift * size;
+           distance(a.ray.position, b.ray.position) < kMostShift * size_;
   }
 
   bool isSteady(const Triangle& t) const {
@@ -138,9 +138,9 @@ class Cutter {
   // Whether the ray at a side's middle is off the mean of those at its ends.
   bool bends(const Corner& a, const Corner& b, const Corner& middle) const {
     if (!sameWay(a, middle) || !sameWay(b, middle)) return true;
-    const float pixel = view.pixelAngle * distance(middle.position, query.emitter.position);  // m
+    const float pixel = view_.pixelAngle * distance(middle.position, query_.emitter.position);  // m
     return distance(middle.ray.direction, normalize(a.ray.direction + b.ray.direction)) >
-               kMostBend * view.pixelAngle ||
+               kMostBend * view_.pixelAngle ||
            distance(middle.ray.position, 0.5f * (a.ray.position + b.ray.position)) > kMostBend * pixel;
   }
 
@@ -152,12 +152,12 @@ class Cutter {
     return t;
   }
 
-  const TransportSource& source;
-  const TransportQuery& query;
-  const View& view;
-  const float smallestSide;  // pixels
-  const float size;          // m
-  const CasterTriangle& surface;
+  const TransportSource& source_;
+  const TransportQuery& query_;
+  const View& view_;
+  const float smallestSide_;  // pixels
+  const float size_;          // m
+  const CasterTriangle& surface_;
 };
 
 // What became of a block of triangles: the vertices of the mesh of those that are whole, and the pieces of
@@ -173,29 +173,29 @@ class Collector {
  public:
   Collector(const Scene& scene, const TransportSource& sourceToAsk, const TransportQuery& queryOf,
             const View& viewOf)
-      : source(sourceToAsk),
-        query(queryOf),
-        view(viewOf),
-        object(scene.objects[queryOf.object]),
-        mesh(scene.meshOf(object)),
-        facing(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f),
-        rays(mesh.positions.size()) {
-    source.vertexRays(query, rays);
-    corners.reserve(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      corners.push_back({{},
-                         object.placement.point(mesh.positions[i]),
-                         object.placement.direction(mesh.normals[i]),
-                         rays[i]});
-    size = worldBounds(scene, object).diagonal();
+      : source_(sourceToAsk),
+        query_(queryOf),
+        view_(viewOf),
+        object_(scene.objects[queryOf.object]),
+        mesh_(scene.meshOf(object_)),
+        facing_(queryOf.media.contains(queryOf.object) ? -1.0f : 1.0f),
+        rays_(mesh_.positions.size()) {
+    source_.vertexRays(query_, rays_);
+    corners_.reserve(rays_.size());
+    for (std::size_t i = 0; i < rays_.size(); ++i)
+      corners_.push_back({{},
+                          object_.placement.point(mesh_.positions[i]),
+                          object_.placement.direction(mesh_.normals[i]),
+                          rays_[i]});
+    size_ = worldBounds(scene, object_).diagonal();
   }
 
   SightMesh collect() const {
-    const std::size_t blocks = (mesh.triangles.size() + kBlock - 1) / kBlock;
+    const std::size_t blocks = (mesh_.triangles.size() + kBlock - 1) / kBlock;
     std::vector<Block> parts(blocks);
     oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      const std::size_t end = std::min(mesh.triangles.size(), (block + 1) * kBlock);
-      for (std::size_t t = block * kBlock; t < end; ++t) add(mesh.triangles[t], parts[block]);
+      const std::size_t end = std::min(mesh_.triangles.size(), (block + 1) * kBlock);
+      for (std::size_t t = block * kBlock; t < end; ++t) add(mesh_.triangles[t], parts[block]);
     });
     float squarePixels = 0;
     for (const Block& part : parts) squarePixels += part.squarePixels;
@@ -203,14 +203,14 @@ class Collector {
     oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
       for (const Triangle& t : parts[block].parting) {
         const CasterTriangle surface({t[0].position, t[1].position, t[2].position},
-                                     {t[0].normal, t[1].normal, t[2].normal}, mesh.isCurved);
-        const Cutter cutter(source, query, view, smallestSide, size, surface);
+                                     {t[0].normal, t[1].normal, t[2].normal}, mesh_.isCurved);
+        const Cutter cutter(source_, query_, view_, smallestSide, size_, surface);
         refineTriangle(cutter, t, kMostCuts, 0, parts[block].pieces);
       }
     });
     SightMesh result;
-    result.vertices.reserve(corners.size());
-    for (const Corner& corner : corners) result.vertices.push_back(vertexOf(corner));
+    result.vertices.reserve(corners_.size());
+    for (const Corner& corner : corners_) result.vertices.push_back(vertexOf(corner));
     for (const Block& part : parts) {
       result.indices.insert(result.indices.end(), part.indices.begin(), part.indices.end());
       for (const Triangle& piece : part.pieces)
@@ -224,15 +224,15 @@ class Collector {
 
  private:
   bool isSeen(const uvec3& t) const {
-    if (!mesh.isClosed) return true;
-    const vec3 a = corners[t.x].position;
-    const vec3 across = cross(corners[t.y].position - a, corners[t.z].position - a);
-    return facing * dot(across, query.emitter.position - a) > 0;
+    if (!mesh_.isClosed) return true;
+    const vec3 a = corners_[t.x].position;
+    const vec3 across = cross(corners_[t.y].position - a, corners_[t.z].position - a);
+    return facing_ * dot(across, query_.emitter.position - a) > 0;
   }
 
   // By the caster itself, as far as the source can tell.
   bool isHidden(const uvec3& t) const {
-    return (rays[t.x].flags & rays[t.y].flags & rays[t.z].flags & kRayOccluded) != 0;
+    return (rays_[t.x].flags & rays_[t.y].flags & rays_[t.z].flags & kRayOccluded) != 0;
   }
 
   static bool isSteady(const Triangle& t) {
@@ -241,20 +241,21 @@ class Collector {
   }
 
   float longestSide(const uvec3& t) const {  // pixels
-    const vec3 a = corners[t.x].position, b = corners[t.y].position, c = corners[t.z].position;
+    const vec3 a = corners_[t.x].position, b = corners_[t.y].position, c = corners_[t.z].position;
     return std::max({distance(a, b), distance(b, c), distance(c, a)}) /
-           (view.pixelAngle * std::max(distance(a, query.emitter.position), 1e-6f));
+           (view_.pixelAngle * std::max(distance(a, query_.emitter.position), 1e-6f));
   }
 
   bool isLong(const uvec3& t) const { return longestSide(t) > kLongestStraightSide; }
 
   bool facesAway(const Corner& corner) const {
-    return facing * dot(corner.position - query.emitter.position, corner.normal) >= 0;
+    return facing_ * dot(corner.position - query_.emitter.position, corner.normal) >= 0;
   }
 
-  // A corner past the rim of what is seen has no sight of its own; up to the rim that of the others will do.
+  // A corner beyond the visible part has no view ray of its own; up to the edge, those of the other corners
+  // are used.
   Triangle upToRim(const uvec3& t) const {
-    Triangle triangle{corners[t.x], corners[t.y], corners[t.z]};
+    Triangle triangle{corners_[t.x], corners_[t.y], corners_[t.z]};
     const auto seen = std::ranges::find_if_not(triangle, [&](const Corner& c) { return facesAway(c); });
     if (seen == triangle.end()) return triangle;
     const OutgoingRay ray = seen->ray;
@@ -265,7 +266,7 @@ class Collector {
 
   void add(const uvec3& t, Block& block) const {
     if (!isSeen(t)) return;
-    if (!isLong(t) && isSteady({corners[t.x], corners[t.y], corners[t.z]})) {
+    if (!isLong(t) && isSteady({corners_[t.x], corners_[t.y], corners_[t.z]})) {
       block.indices.insert(block.indices.end(), {t.x, t.y, t.z});
       return;
     }
@@ -274,7 +275,7 @@ class Collector {
       block.pieces.push_back(whole);
       return;
     }
-    if (isOutside(view, whole)) return;
+    if (isOutside(view_, whole)) return;
     for (int i = 0; i < 3; ++i) whole[std::size_t(i)].weights = mat3(1)[i];
     block.parting.push_back(whole);
     if (isSteady(whole)) return;
@@ -282,15 +283,15 @@ class Collector {
     block.squarePixels += longest * longest;
   }
 
-  const TransportSource& source;
-  const TransportQuery& query;
-  const View& view;
-  const Object& object;
-  const Mesh& mesh;
-  const float facing;  // -1 where the viewer is inside the caster
-  float size = 0;      // m, across the caster
-  std::vector<OutgoingRay> rays;
-  std::vector<Corner> corners;
+  const TransportSource& source_;
+  const TransportQuery& query_;
+  const View& view_;
+  const Object& object_;
+  const Mesh& mesh_;
+  const float facing_;  // -1 where the viewer is inside the caster
+  float size_ = 0;      // m, across the caster
+  std::vector<OutgoingRay> rays_;
+  std::vector<Corner> corners_;
 };
 
 // What sight meets where it ends.

@@ -1,5 +1,5 @@
-// Where the viewer looks to by way of a caster (Iwasaki 2005, 5.3): rays of sight at the vertices of the
-// surface that faces the viewer, between which they are interpolated.
+// Traces the view rays of a caster at the vertices of its visible surface (Iwasaki 2005, 5.3). Between
+// vertices they are interpolated.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 
 namespace nephroid {
 
-// Triangles of a caster's surface on the side of the viewer. Those whose corners look different ways are cut
-// until they are a few pixels small.
+// The triangles of a caster's surface that face the viewer. Triangles whose corners have different paths are
+// cut until they are a few pixels wide.
 struct SightMesh {
   std::vector<SightVertex> vertices;
   std::vector<uint32_t> indices;
 };
 
-// A line of sight from `eye`, inside of `media`, that meets the object, in one colour channel.
+// The query for view rays from `eye` (m), inside `media`, that meet the object, in one color channel.
 TransportQuery sightQuery(uint32_t object, vec3 eye, uint32_t channel, const MediumStack& media);
 
-// Of what is within the picture. `rays`: of the scene.
+// Makes the mesh of the part that is within the picture. `rays`: of the scene.
 SightMesh sightMesh(const Scene& scene, const TransportSource& source, const RayScene& rays,
                     const TransportQuery& query, const View& view);
 

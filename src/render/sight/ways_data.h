@@ -1,4 +1,4 @@
-// What the pass is told that finds lines of sight in water, for C++ and GLSL.
+// The constants of the pass that finds the parts of view rays in water, for C++ and GLSL.
 #ifndef NEPHROID_RENDER_SIGHT_WAYS_DATA_H
 #define NEPHROID_RENDER_SIGHT_WAYS_DATA_H
 
@@ -8,15 +8,15 @@
 
 SHARED_BEGIN
 
-// Where ways of sight begin: where sight enters the water; at an eye in it; or where the surface has
-// reflected sight from there totally.
+// Where a view ray in water begins: where it enters through the surface; where the surface has totally
+// reflected it; or at the eye, which is in the water.
 SHARED_CONSTANT uint kWayFromSurface = 0u;
 SHARED_CONSTANT uint kWayReflected = 1u;
 SHARED_CONSTANT uint kWayFromEye = 2u;
 
 struct WayConstants {
   vec3 eye;  // m
-  // A ray of sight at the place (x, y) of clip space goes along middle + x * right + y * down.
+  // The view ray at the place (x, y) of clip space has the direction middle + x * right + y * down.
   vec3 middle;
   vec3 right;
   vec3 down;

@@ -12,7 +12,7 @@ constexpr TechniqueTraits kTraits{.usesBeams = true};
 
 constexpr Setting planesSetting() {
   Setting planes = wholeSetting<&IlluminationTextureSettings::planes>(
-      "planes", 1, 256, "Virtual planes around the receivers that caustics are drawn on");
+      "planes", 1, 256, "Number of virtual planes around the receivers, on which caustics are drawn");
   planes.wordForZero = "sensor";
   return planes;
 }

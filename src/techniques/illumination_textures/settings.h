@@ -1,3 +1,4 @@
+// The settings of illumination textures.
 #pragma once
 
 #include "core/settings.h"
@@ -5,7 +6,7 @@
 namespace nephroid {
 
 struct IlluminationTextureSettings {
-  uint32_t planes = 4;  // virtual planes; 0: a sensor is measured by a single one, in its own plane
+  uint32_t planes = 4;  // virtual planes; 0: a sensor is measured with a single plane, its own
   bool operator==(const IlluminationTextureSettings&) const = default;
 };
 

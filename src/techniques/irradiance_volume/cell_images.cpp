@@ -11,7 +11,7 @@ namespace {
 
 constexpr VkDeviceSize kVectorBytes = 8, kTintBytes = 4;
 constexpr float kLargestHalf = 65504;
-constexpr float kOneColor = 1e-4f;  // of cells that keep colours in steps of 1/255
+constexpr float kOneColor = 1e-4f;  // of cells that keep colors in steps of 1/255
 
 void ensureImage(gpu::Device& device, gpu::Image& image, const char* name, VkFormat format, uvec3 size) {
   if (image && uvec3(image.width(), image.height(), image.layerCount()) == size) return;

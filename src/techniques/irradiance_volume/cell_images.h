@@ -1,4 +1,4 @@
-// Cells of an irradiance volume as images, which devices filter faster than they read words.
+// The cells of an irradiance volume as images, which devices filter faster than words in a buffer.
 #pragma once
 
 #include <span>
@@ -8,20 +8,23 @@
 namespace nephroid {
 
 struct CellImages {
-  gpu::Image vectors;  // rgba16f, a layer for each z; a: how bright the cell is, as lookup.h weighs colours
-  gpu::Image tints;    // rg16f: the red and the blue part of that; none where all cells have one colour
-  vec3 color{1};       // that colour, of mean 1
+  gpu::Image vectors;  // rgba16f, one layer for each z; a: the cell's brightness, the weight of its color in
+                       // lookup.h
+  gpu::Image
+      tints;      // rg16f, a times the red and the blue part; not created where all cells have the same color
+  vec3 color{1};  // the common color, with a mean of 1
   gpu::Buffer staged;
 };
 
-// Takes `size` cells from `words`, which hold them after `first` others. Nothing is in use by the device.
+// Prepares `size` cells, which begin after `first` other cells in `words`. The device must not be using the
+// images.
 void stageCells(gpu::Device& device, CellImages& images, uvec3 size, uint32_t first,
                 std::span<const uint32_t> words);
 
-// Of the images.
+// The size of the images in bytes.
 uint64_t cellBytes(const CellImages& images);
 
-// Puts into the images what was staged.
+// Copies the prepared cells to the images.
 void copyCells(gpu::CommandList& commands, const CellImages& images);
 
 }  // namespace nephroid

@@ -81,44 +81,44 @@ class IrradianceVolumes final : public TechniqueBase {
   const HeldFlow& staged(const LightFlow& flow);
   const gpu::Program& programFor(const LookUpTraits& traits);
 
-  gpu::Device& device;
-  const IrradianceVolumeSettings settings;
-  Stats& stats;
-  SceneTransport& transport;
-  SceneVolumes volumes;
-  std::map<LookUpTraits, gpu::Program> programs;  // made when first needed
-  gpu::Sampler cellSampler, moveSampler;
-  CellImages noCells;  // bound where a share has none
-  gpu::Image noMoves;
-  std::map<std::pair<const IrradianceVolume*, uint32_t>, HeldLight> uploaded;
+  gpu::Device& device_;
+  const IrradianceVolumeSettings settings_;
+  Stats& stats_;
+  SceneTransport& transport_;
+  SceneVolumes volumes_;
+  std::map<LookUpTraits, gpu::Program> programs_;  // made when first needed
+  gpu::Sampler cellSampler_, moveSampler_;
+  CellImages noCells_;  // bound where a share has none
+  gpu::Image noMoves_;
+  std::map<std::pair<const IrradianceVolume*, uint32_t>, HeldLight> uploaded_;
   // Of the frame being made; those after the ones that are used are left from frames before.
-  std::vector<Share> shares;
-  std::deque<HeldFlow> flows;
-  std::deque<HeldLight> resolved;
-  std::size_t usedFlows = 0, usedResolved = 0;
+  std::vector<Share> shares_;
+  std::deque<HeldFlow> flows_;
+  std::deque<HeldLight> resolved_;
+  std::size_t usedFlows_ = 0, usedResolved_ = 0;
 };
 
 IrradianceVolumes::IrradianceVolumes(const TechniqueContext& context)
-    : device(context.device),
-      settings(context.settings.own.of<IrradianceVolumeSettings>()),
-      stats(context.stats),
-      transport(context.transport),
-      volumes(sceneVolumes(transport.scene(), context.settings)),
-      cellSampler(gpu::createSampler(device)),
-      moveSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})),
-      noMoves(gpu::createImage(device, "no irradiance flow", {})) {
-  stageCells(device, noCells, uvec3(1), 0, std::array<uint32_t, kWordsOfCell>{});
+    : device_(context.device),
+      settings_(context.settings.own.of<IrradianceVolumeSettings>()),
+      stats_(context.stats),
+      transport_(context.transport),
+      volumes_(sceneVolumes(transport_.scene(), context.settings)),
+      cellSampler_(gpu::createSampler(device_)),
+      moveSampler_(gpu::createSampler(device_, {.filter = VK_FILTER_NEAREST})),
+      noMoves_(gpu::createImage(device_, "no irradiance flow", {})) {
+  stageCells(device_, noCells_, uvec3(1), 0, std::array<uint32_t, kWordsOfCell>{});
 }
 
 const gpu::Program& IrradianceVolumes::programFor(const LookUpTraits& traits) {
-  const auto found = programs.find(traits);
-  if (found != programs.end()) return found->second;
-  return programs
+  const auto found = programs_.find(traits);
+  if (found != programs_.end()) return found->second;
+  return programs_
       .emplace(traits,
-               gpu::createRasterProgram(device, "irradiance volume", shaders::techniques_whole_picture_vert,
+               gpu::createRasterProgram(device_, "irradiance volume", shaders::techniques_whole_picture_vert,
                                         shaders::techniques_irradiance_volume_volume_frag,
                                         {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
-                                        {{"kRepresentation", uint32_t(settings.representation)},
+                                        {{"kRepresentation", uint32_t(settings_.representation)},
                                          {"kFlows", traits.flows},
                                          {"kIsTinted", traits.isTinted},
                                          {"kIsNear", traits.isNear}}))
@@ -127,46 +127,46 @@ const gpu::Program& IrradianceVolumes::programFor(const LookUpTraits& traits) {
 
 void IrradianceVolumes::stage(HeldLight& held, const SampleLayout& layout,
                               std::span<const uint32_t> words) const {
-  const bool isShells = settings.representation == Representation::shells;
-  if (settings.representation != Representation::multiResolution)
-    stageCells(device, held.cells, layout.size, isShells ? kShellWords / kWordsOfCell : 0, words);
+  const bool isShells = settings_.representation == Representation::shells;
+  if (settings_.representation != Representation::multiResolution)
+    stageCells(device_, held.cells, layout.size, isShells ? kShellWords / kWordsOfCell : 0, words);
   if (isShells) words = words.first(kShellWords);
-  if (isShells || settings.representation == Representation::multiResolution)
-    held.words = gpu::upload(device, "irradiance volume", std::vector<uint32_t>(words.begin(), words.end()));
+  if (isShells || settings_.representation == Representation::multiResolution)
+    held.words = gpu::upload(device_, "irradiance volume", std::vector<uint32_t>(words.begin(), words.end()));
 }
 
 // Light samples go to the device when they are needed first, and stay there.
 const HeldLight& IrradianceVolumes::onDevice(IrradianceVolume& volume, uint32_t sample) {
-  const auto [found, isNew] = uploaded.try_emplace({&volume, sample});
+  const auto [found, isNew] = uploaded_.try_emplace({&volume, sample});
   HeldLight& held = found->second;
   if (!isNew) return held;
   const SampleView& view = volume.sample(sample);
   if (view.layout.words > 0) stage(held, view.layout, view.words);
   if (held.cells.vectors)
-    device.submitAndWait([&](gpu::CommandList& commands) { copyCells(commands, held.cells); });
+    device_.submitAndWait([&](gpu::CommandList& commands) { copyCells(commands, held.cells); });
   held.cells.staged = {};
   return held;
 }
 
 const HeldFlow& IrradianceVolumes::staged(const LightFlow& flow) {
-  if (usedFlows == flows.size()) flows.emplace_back();
-  HeldFlow& held = flows[usedFlows++];
+  if (usedFlows_ == flows_.size()) flows_.emplace_back();
+  HeldFlow& held = flows_[usedFlows_++];
   if (!held.moves || held.moves.width() != flow.side)
     held.moves =
-        gpu::createImage(device, "irradiance flow", {.width = flow.side, .height = flow.side * flow.side});
+        gpu::createImage(device_, "irradiance flow", {.width = flow.side, .height = flow.side * flow.side});
   std::vector<vec4> moves;
   for (const vec3& move : flow.moves) moves.emplace_back(move, 0);
-  gpu::ensureBuffer(device, held.staged, "irradiance flow", moves.size() * sizeof(vec4),
+  gpu::ensureBuffer(device_, held.staged, "irradiance flow", moves.size() * sizeof(vec4),
                     gpu::MemoryKind::upload);
   held.staged.write(moves);
   return held;
 }
 
 // As nearScale has it, of lamps at these points taken together.
-vec3 nearnessOf(std::span<const Emitter> emitters, vec3 centre) {
+vec3 nearnessOf(std::span<const Emitter> emitters, vec3 center) {
   if (emitters.empty() || emitters[0].type == kEmitterDirectional) return vec3(0);
   vec3 sum(0);
-  for (const Emitter& emitter : emitters) sum += emitter.position - centre;
+  for (const Emitter& emitter : emitters) sum += emitter.position - center;
   const vec3 lamp = sum / float(emitters.size());
   return lamp / std::max(dot(lamp, lamp), 1e-20f);
 }
@@ -176,17 +176,17 @@ void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& v
                                  const HeldLight& held, const LightFlow& flow) {
   if (layout.words == 0 || lux == vec3(0)) return;
   const Placement& placement = object.placement;
-  const vec3 centre = placement.point(volume.sphere().center);
-  // From the world, metres, to the sample's frame, bounding radii; and on to places.
-  const float placesPerMetre = layout.placesPerUnit / (placement.scale * volume.sphere().radius);
+  const vec3 center = placement.point(volume.sphere().center);
+  // From the world, meters, to the sample's frame, bounding radii; and on to places.
+  const float placesPerMeter = layout.placesPerUnit / (placement.scale * volume.sphere().radius);
   const mat3 turn = toFrame * glm::transpose(glm::mat3_cast(placement.rotation));
   const bool isMirrored = glm::determinant(turn) < 0;
-  const quat rotation = std::sqrt(placesPerMetre) * glm::normalize(glm::quat_cast(isMirrored ? -turn : turn));
-  Share& share = shares.emplace_back();
+  const quat rotation = std::sqrt(placesPerMeter) * glm::normalize(glm::quat_cast(isMirrored ? -turn : turn));
+  Share& share = shares_.emplace_back();
   VolumeConstants& constants = share.constants;
   constants.turn = {rotation.x, rotation.y, rotation.z, rotation.w};
-  constants.origin = -(placesPerMetre * (turn * centre)) - layout.placesPerUnit * layout.corner;
-  constants.centre = centre;
+  constants.origin = -(placesPerMeter * (turn * center)) - layout.placesPerUnit * layout.corner;
+  constants.center = center;
   constants.inverseRadius = 1 / (placement.scale * volume.regionRadius());
   constants.lux = lux * held.cells.color;
   constants.sizeAcross = layout.size.x | layout.size.y << 16;
@@ -203,50 +203,50 @@ void IrradianceVolumes::addShare(const Object& object, const IrradianceVolume& v
 
 void IrradianceVolumes::addShares(const Object& object, IrradianceVolume& volume, const Emitter& emitter,
                                   const ShapedLight& light) {
-  const vec3 centre = object.placement.point(volume.sphere().center);
-  const vec3 lux = illuminance(light, emitter, centre), nearness = nearnessOf({&emitter, 1}, centre);
-  const vec3 inOwnSpace = object.placement.inverseDirection(emitterDirection(emitter, centre));
-  for (const SampleShare& share : volume.lightSamples().around(inOwnSpace, settings.lightInterpolation))
+  const vec3 center = object.placement.point(volume.sphere().center);
+  const vec3 lux = illuminance(light, emitter, center), nearness = nearnessOf({&emitter, 1}, center);
+  const vec3 inOwnSpace = object.placement.inverseDirection(emitterDirection(emitter, center));
+  for (const SampleShare& share : volume.lightSamples().around(inOwnSpace, settings_.lightInterpolation))
     addShare(object, volume, volume.sample(share.sample).layout, volume.toFrame(share), share.weight * lux,
              nearness, onDevice(volume, share.sample), volume.flow(share));
 }
 
 void IrradianceVolumes::addResolved(const Object& object, IrradianceVolume& volume,
                                     std::span<const Emitter> emitters, const ShapedLight& light) {
-  const vec3 centre = object.placement.point(volume.sphere().center);
+  const vec3 center = object.placement.point(volume.sphere().center);
   const uint32_t order = volume.key().settings.order;
   std::vector<float> coefficients(std::size_t{order + 1} * (order + 1), 0);
   vec3 lux(0);
   float sum = 0;
   for (const Emitter& emitter : emitters) {
-    const vec3 part = illuminance(light, emitter, centre);
+    const vec3 part = illuminance(light, emitter, center);
     const float weight = part.x + part.y + part.z;
     const std::vector<float> harmonics =
-        sphericalHarmonics(order, object.placement.inverseDirection(emitterDirection(emitter, centre)));
+        sphericalHarmonics(order, object.placement.inverseDirection(emitterDirection(emitter, center)));
     for (std::size_t j = 0; j < coefficients.size(); ++j) coefficients[j] += weight * harmonics[j];
     lux += part;
     sum += weight;
   }
   if (sum <= 0) return;
   for (float& coefficient : coefficients) coefficient /= sum;
-  if (usedResolved == resolved.size()) resolved.emplace_back();
-  HeldLight& held = resolved[usedResolved++];
+  if (usedResolved_ == resolved_.size()) resolved_.emplace_back();
+  HeldLight& held = resolved_[usedResolved_++];
   const SampleLayout& layout = volume.sample(0).layout;
   stage(held, layout, volume.resolve(coefficients));
-  addShare(object, volume, layout, mat3(1), lux, nearnessOf(emitters, centre), held);
+  addShare(object, volume, layout, mat3(1), lux, nearnessOf(emitters, center), held);
 }
 
 void IrradianceVolumes::update(GpuScene&) {
-  const Scene& now = transport.scene();
-  shares.clear();
-  usedFlows = usedResolved = 0;
+  const Scene& now = transport_.scene();
+  shares_.clear();
+  usedFlows_ = usedResolved_ = 0;
   const std::vector<ShapedLight> lights = shapedLights(now);
   for (uint32_t l = 0; l < lights.size(); ++l) {
     const std::vector<Emitter> emitters = emittersOf(now.lights[l], l);
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
-      if (!volumes.ofObject[i]) continue;
-      IrradianceVolume& volume = *volumes.ofObject[i];
-      if (settings.representation == Representation::harmonics) {
+      if (!volumes_.ofObject[i]) continue;
+      IrradianceVolume& volume = *volumes_.ofObject[i];
+      if (settings_.representation == Representation::harmonics) {
         addResolved(now.objects[i], volume, emitters, lights[l]);
         continue;
       }
@@ -255,27 +255,27 @@ void IrradianceVolumes::update(GpuScene&) {
   }
   uint64_t bytes = 0;
   const auto add = [&](const HeldLight& held) { bytes += held.words.size() + cellBytes(held.cells); };
-  for (const auto& [sample, held] : uploaded) add(held);
-  for (const HeldLight& held : resolved) add(held);
-  setCount(stats, "lookups", shares.size());
-  setCount(stats, "light_samples", uploaded.size());
-  setCount(stats, "volume_bytes", bytes);
+  for (const auto& [sample, held] : uploaded_) add(held);
+  for (const HeldLight& held : resolved_) add(held);
+  setCount(stats_, "lookups", shares_.size());
+  setCount(stats_, "light_samples", uploaded_.size());
+  setCount(stats_, "volume_bytes", bytes);
 }
 
 void IrradianceVolumes::record(gpu::CommandList& commands, GpuScene&) {
-  for (std::size_t i = 0; i < usedFlows; ++i) commands.copy(flows[i].staged, 0, flows[i].moves, 0);
-  for (std::size_t i = 0; i < usedResolved; ++i) copyCells(commands, resolved[i].cells);
+  for (std::size_t i = 0; i < usedFlows_; ++i) commands.copy(flows_[i].staged, 0, flows_[i].moves, 0);
+  for (std::size_t i = 0; i < usedResolved_; ++i) copyCells(commands, resolved_[i].cells);
 }
 
 std::vector<Lattice> IrradianceVolumes::lattices() const {
   std::vector<Lattice> all;
-  for (const Share& each : shares) {
+  for (const Share& each : shares_) {
     const VolumeConstants& share = each.constants;
     // Shells have no box of their own: that of the region stands for it.
     const float radius = 1 / share.inverseRadius;
-    Lattice lattice{LatticeKind::cells, share.centre - radius, {}, uvec3(1)};
+    Lattice lattice{LatticeKind::cells, share.center - radius, {}, uvec3(1)};
     mat3 edges(2 * radius);
-    if (settings.representation != Representation::shells) {
+    if (settings_.representation != Representation::shells) {
       const float handedness = (share.sizeAndFlowSide & kIsMirrored) != 0 ? -1.0f : 1.0f;
       mat3 linear;
       for (int i = 0; i < 3; ++i) linear[i] = handedness * turned(mat3(1)[i], share.turn);
@@ -295,15 +295,15 @@ std::vector<Lattice> IrradianceVolumes::lattices() const {
 void IrradianceVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& points,
                               const gpu::Image& causticsLux) {
   drawCaustics(commands, points, causticsLux, [&] {
-    for (const Share& share : shares) {
-      const CellImages& cells = share.light->cells.vectors ? share.light->cells : noCells;
+    for (const Share& share : shares_) {
+      const CellImages& cells = share.light->cells.vectors ? share.light->cells : noCells_;
       const gpu::Image& tints = cells.tints ? cells.tints : cells.vectors;  // any, where they are not read
       commands.draw(*share.program, 3, 1, share.constants,
                     {{"receiverPosition", *points.position},
                      {"receiverNormal", *points.normal},
-                     {"cellVectors", cells.vectors, cellSampler},
-                     {"cellTints", tints, cellSampler},
-                     {"flowMoves", share.flow ? share.flow->moves : noMoves, moveSampler}});
+                     {"cellVectors", cells.vectors, cellSampler_},
+                     {"cellTints", tints, cellSampler_},
+                     {"flowMoves", share.flow ? share.flow->moves : noMoves_, moveSampler_}});
     }
   });
 }
@@ -315,36 +315,37 @@ std::unique_ptr<Technique> make(const TechniqueContext& context) {
 constexpr Setting kSettings[] = {
     choiceSetting<&IrradianceVolumeSettings::representation>(
         "representation",
-        "How an irradiance volume is kept: on an even grid, on concentric shells placed where the light "
+        "How an irradiance volume is stored: on an even grid, on concentric shells placed where the light "
         "changes, on a grid whose bricks are as fine as the light needs, or as spherical harmonics over "
         "light "
         "directions",
         true),
     choiceSetting<&IrradianceVolumeSettings::lightInterpolation>(
         "light-interpolation",
-        "Between the light directions of a volume: the nearest, the three around by their weights, these "
-        "turned "
-        "to the light, or moved on from there as the caster moves light"),
+        "Interpolation between the light directions of a volume. nearest: the nearest one; barycentric: the "
+        "weighted mean of three; rotated: the three turned to the light; flow: turned, and then moved as the "
+        "caster moves its light"),
     wholeSetting<&IrradianceVolumeSettings::kilobytes>(
         "volume-kilobytes", 1, 65535, "Kilobytes of a volume for each light direction", true),
     wholeSetting<&IrradianceVolumeSettings::lightLevel>(
         "light-level", 0, kMostLightLevels,
-        "How often the icosahedron of light directions is cut finer: 10 * 4^N + 2 directions, fewer for "
-        "symmetric casters",
+        "How many times the icosahedron of light directions is subdivided: N times give 10 * 4^N + 2 "
+        "directions, fewer for symmetric casters",
         true),
     wholeSetting<&IrradianceVolumeSettings::radius>(
         "volume-radius", 2, 64,
-        "Where a volume ends, in radii of its caster's bounding sphere; beyond, light goes on as it left",
+        "The radius of a volume, in radii of its caster's bounding sphere; beyond it, light continues in the "
+        "direction in which it left",
         true),
     wholeSetting<&IrradianceVolumeSettings::photons>("volume-photons", 1, 100000,
                                                      "Thousands of photons for each light direction", true),
     wholeSetting<&IrradianceVolumeSettings::harmonicOrder>("harmonic-order", 1, kMostHarmonicOrder,
                                                            "Order of the spherical harmonics", true),
-    wholeSetting<&IrradianceVolumeSettings::error>("volume-error", 0, 1000,
-                                                   "How far, in thousandths of the light on a caster, the "
-                                                   "bricks of a multi-resolution volume may be off "
-                                                   "the finest grid, whose size --volume-kilobytes gives",
-                                                   true),
+    wholeSetting<&IrradianceVolumeSettings::error>(
+        "volume-error", 0, 1000,
+        "The error, in thousandths of the light on a caster, that bricks of a multi-resolution volume may "
+        "have against the finest grid, whose size is --volume-kilobytes",
+        true),
 };
 constexpr SettingsOwner kOwners[] = {settingsOwner<IrradianceVolumeSettings>("irradiance-volume", kSettings)};
 

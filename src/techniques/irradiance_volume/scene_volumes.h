@@ -10,19 +10,21 @@
 
 namespace nephroid {
 
-// The volumes of a scene's casters and which of them each object uses; none where an object casts no caustic
-// of its own. Casters alike in mesh, material and scale where they absorb share theirs.
+// The volumes of a scene's casters, and the volume of each object; null where an object makes no caustic.
+// Casters with the same mesh and material share a volume; if the material absorbs, they must also have the
+// same scale.
 struct SceneVolumes {
   std::vector<std::unique_ptr<IrradianceVolume>> volumes;
   std::vector<IrradianceVolume*> ofObject;
 };
 
-// From `settings.baked`, or traced as they are asked for and kept in the cache. The scene's meshes must
-// outlive them. Throws InputError where the baked file is not of this scene.
+// Takes the volumes from the file `settings.baked`; without one, light samples are traced when they are
+// needed, and stored in the cache. The scene's meshes must outlive the volumes. Throws InputError where the
+// baked file is not for this scene.
 SceneVolumes sceneVolumes(const Scene& scene, const TechniqueSettings& settings);
 
-// What the technique would look up for the lights of `scene` is traced where the cache does not hold it, and
-// kept there.
+// Traces the light samples that the lights of `scene` need, and stores them in the cache, where they are not
+// yet there.
 void keepLightSamples(const Scene& scene, const TechniqueSettings& settings, Progress& progress);
 
 }  // namespace nephroid

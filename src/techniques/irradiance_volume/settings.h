@@ -1,3 +1,4 @@
+// The settings of irradiance volumes.
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 
 namespace nephroid {
 
-// How an irradiance volume is kept; as kRepresentation... of irradiance_volume/lookup.h.
+// How an irradiance volume is stored, in the order of kRepresentation... in irradiance_volume/lookup.h.
 enum class Representation { grid, shells, multiResolution, harmonics };
 
 inline constexpr std::array<const char*, 4> kRepresentationNames{"grid", "shells", "multi-resolution",
@@ -20,11 +21,11 @@ struct IrradianceVolumeSettings {
   LightInterpolation lightInterpolation = LightInterpolation::flow;
   Representation representation = Representation::shells;
   uint32_t kilobytes = 360;    // for each light direction
-  uint32_t lightLevel = 3;     // times the icosahedron of light directions is cut finer
+  uint32_t lightLevel = 3;     // how many times the icosahedron of light directions is subdivided
   uint32_t radius = 3;         // bounding radii
   uint32_t photons = 200;      // thousands, for each light direction
   uint32_t harmonicOrder = 5;  // of spherical harmonics over light directions
-  uint32_t error = 20;         // thousandths of the light on a caster; multi-resolution alone
+  uint32_t error = 20;         // thousandths of the light on a caster; only for multi-resolution
   bool operator==(const IrradianceVolumeSettings&) const = default;
 };
 

@@ -1,4 +1,4 @@
-// What the shaders of this folder are given.
+// The data of this folder's shaders.
 #ifndef NEPHROID_TECHNIQUES_IRRADIANCE_VOLUME_SHADER_DATA_H
 #define NEPHROID_TECHNIQUES_IRRADIANCE_VOLUME_SHADER_DATA_H
 
@@ -14,11 +14,11 @@ layout(buffer_reference, scalar) readonly buffer VolumeWords {
 
 SHARED_BEGIN
 
-// One light sample's share in the light of one emitter through one caster.
+// One light sample's part of the light of one emitter through one caster.
 struct VolumeConstants {
-  vec4 turn;             // quaternion, from the world to the volume; its squared length is places per metre
+  vec4 turn;             // quaternion, from the world to the volume; its squared length is places per meter
   vec3 origin;           // of the world, in places
-  vec3 centre;           // m, of the region
+  vec3 center;           // m, of the region
   float inverseRadius;   // 1/m, of the region
   vec3 lux;              // of the light that falls on the caster, times the share
   uint sizeAcross;       // of the volume: x in the lower 16 bits, y above
@@ -30,7 +30,7 @@ struct VolumeConstants {
   vec3 nearness;  // 1/m, of the lamp, as nearScale has it
 };
 
-// What the quaternion turns to is the volume reflected in its centre, point by point.
+// The volume is also reflected through its center.
 SHARED_CONSTANT uint kIsMirrored = 0x80000000u;
 
 SHARED_FUNCTION vec3 turned(vec3 v, vec4 turn) {

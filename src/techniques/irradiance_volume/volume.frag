@@ -64,8 +64,8 @@ vec3 placeOf(vec3 point) {
 
 vec3 toWorld(vec3 vector) {
   const vec4 turn = constants.turn;
-  const float placesPerMetre = dot(turn, turn);
-  return handedness() / placesPerMetre * turned(vector, vec4(-turn.xyz, turn.w));
+  const float placesPerMeter = dot(turn, turn);
+  return handedness() / placesPerMeter * turned(vector, vec4(-turn.xyz, turn.w));
 }
 
 void main() {
@@ -73,12 +73,12 @@ void main() {
   const ivec2 pixel = ivec2(gl_FragCoord.xy);
   const vec4 point = imageLoad(receiverPosition, pixel);
   if (point.w == 0) return;
-  const vec3 offset = point.xyz - constants.centre;
+  const vec3 offset = point.xyz - constants.center;
   const float scale = kIsNear ? nearScale(offset, constants.nearness) : 1;
   const vec3 there = scale * constants.inverseRadius * offset;
   const vec4 inRegion = placeInRegion(there, constants.source);
   if (scale == 0 || inRegion.w == 0) return;
-  const vec3 place = placeOf(constants.centre + inRegion.xyz / constants.inverseRadius);
+  const vec3 place = placeOf(constants.center + inRegion.xyz / constants.inverseRadius);
   const FlowView flow =
       FlowView(constants.flowOrigin, constants.flowScale, (constants.sizeAndFlowSide & ~kIsMirrored) >> 16u);
   const uint lower = 0xffffu;

@@ -1,6 +1,5 @@
-// Beams and their bounds in images of 128 bits a texel, which a software device reads faster than buffers.
-
-// `texels` to each.
+// Beams and their bounds in images with 128 bits per texel, which a software device reads faster than
+// buffers. Each element has `texels` texels.
 ivec2 firstTexel(uint index, uint texels) {
   const uint inRow = kTexelsInRow / texels;
   return ivec2(texels * (index % inRow), index / inRow);
@@ -12,7 +11,7 @@ BeamBounds boundsFromTexels(uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
                     uint[3](0u, 0u, 0u));
 }
 
-// As floats stand in the struct.
+// The floats are in the same order as in the struct.
 Beam beamFromTexels(vec4 t[6]) {
   return Beam(vec3[3](t[0].xyz, vec3(t[0].w, t[1].xy), vec3(t[1].zw, t[2].x)),
               vec3[3](t[2].yzw, t[3].xyz, vec3(t[3].w, t[4].xy)), vec3(t[4].zw, t[5].x), t[5].yzw);

@@ -31,26 +31,26 @@ constexpr BeamDrawCommand kNoDraws{0, 1, 0, 0, 0};
 template <class T>
 class TexelList {
  public:
-  explicit TexelList(std::string nameOf) : name(std::move(nameOf)) {}
+  explicit TexelList(std::string nameOf) : name_(std::move(nameOf)) {}
 
   void write(gpu::Device& device, const std::vector<T>& values) {
     const auto rows = uint32_t((values.size() + kInRow - 1) / kInRow);
-    if (!texels || texels.height() < rows) {
+    if (!texels_ || texels_.height() < rows) {
       const uint32_t roomy = rows + rows / 2 + 1;
-      texels = gpu::createImage(
-          device, name, {.format = VK_FORMAT_R32G32B32A32_UINT, .width = kInRow * kTexels, .height = roomy});
-      upload = gpu::createBuffer(device, name, sizeof(T) * kInRow * roomy, gpu::MemoryKind::upload);
+      texels_ = gpu::createImage(
+          device, name_, {.format = VK_FORMAT_R32G32B32A32_UINT, .width = kInRow * kTexels, .height = roomy});
+      upload_ = gpu::createBuffer(device, name_, sizeof(T) * kInRow * roomy, gpu::MemoryKind::upload);
     }
-    upload.write(values);
+    upload_.write(values);
   }
-  void copy(gpu::CommandList& commands) const { commands.copy(upload, 0, texels); }
-  const gpu::Image& image() const { return texels; }
+  void copy(gpu::CommandList& commands) const { commands.copy(upload_, 0, texels_); }
+  const gpu::Image& image() const { return texels_; }
 
  private:
   static constexpr uint32_t kTexels = sizeof(T) / sizeof(uvec4), kInRow = kTexelsInRow / kTexels;
-  std::string name;
-  gpu::Image texels;
-  gpu::Buffer upload;
+  std::string name_;
+  gpu::Image texels_;
+  gpu::Buffer upload_;
 };
 
 constexpr TechniqueTraits kTraits{.usesBeams = true, .coversSquares = true};
@@ -66,32 +66,32 @@ class LightVolumes final : public TechniqueBase {
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;
   void scatter(gpu::CommandList& commands, const WaysOfSight& ways, const gpu::Image& luminance) override {
-    scattered.draw(commands, ways, luminance);
+    scattered_.draw(commands, ways, luminance);
   }
   bool finish() override;
 
  private:
-  gpu::Device& device;
-  const Paths paths;
-  const BeamDivision division;
-  const LightVolumeSettings settings;
-  Stats& stats;
-  SceneTransport& transport;
-  const Casters casters;
-  const TransportSource& source;
-  gpu::Program patches, beamOnPatch;
-  gpu::Buffer counts, countsRead;
-  bool isFirstView = true;    // of the frame being made
-  uint32_t levelOfRoots = 0;  // of the hierarchy, from where its parts are taken one after the other
-  gpu::Buffer draws, noDraws, command;
-  gpu::Image axesU, axesV;  // of the squares that pixels show
+  gpu::Device& device_;
+  const Paths paths_;
+  const BeamDivision division_;
+  const LightVolumeSettings settings_;
+  Stats& stats_;
+  SceneTransport& transport_;
+  const Casters casters_;
+  const TransportSource& source_;
+  gpu::Program patches_, beamOnPatch_;
+  gpu::Buffer counts_, countsRead_;
+  bool isFirstView_ = true;    // of the frame being made
+  uint32_t levelOfRoots_ = 0;  // of the hierarchy, from where its parts are taken one after the other
+  gpu::Buffer draws_, noDraws_, command_;
+  gpu::Image axesU_, axesV_;  // of the squares that pixels show
 
   // Of the frame being made.
-  BeamTree tree;
-  TexelList<Beam> beams{"light volumes"};
-  TexelList<BeamBounds> bounds{"bounds of light volumes"};
-  gpu::Buffer portionsRead;
-  ScatteredLight scattered;
+  BeamTree tree_;
+  TexelList<Beam> beams_{"light volumes"};
+  TexelList<BeamBounds> bounds_{"bounds of light volumes"};
+  gpu::Buffer portionsRead_;
+  ScatteredLight scattered_;
 };
 
 gpu::RasterState stateOfDraws() {
@@ -102,26 +102,26 @@ gpu::RasterState stateOfDraws() {
 }
 
 LightVolumes::LightVolumes(const TechniqueContext& context)
-    : device(context.device),
-      paths(context.settings.transport.paths),
-      division(context.settings.beams),
-      settings(context.settings.own.of<LightVolumeSettings>()),
-      stats(context.stats),
-      transport(context.transport),
-      casters(context.casters),
-      source(transport.source()),
-      patches(gpu::createComputeProgram(device, "patches", shaders::techniques_light_volumes_patches_comp,
-                                        {{"kIsFlat", settings.culling == Culling::flat}})),
-      beamOnPatch(gpu::createRasterProgram(
-          device, "beam on a patch", shaders::techniques_light_volumes_beam_on_patch_vert,
+    : device_(context.device),
+      paths_(context.settings.transport.paths),
+      division_(context.settings.beams),
+      settings_(context.settings.own.of<LightVolumeSettings>()),
+      stats_(context.stats),
+      transport_(context.transport),
+      casters_(context.casters),
+      source_(transport_.source()),
+      patches_(gpu::createComputeProgram(device_, "patches", shaders::techniques_light_volumes_patches_comp,
+                                         {{"kIsFlat", settings_.culling == Culling::flat}})),
+      beamOnPatch_(gpu::createRasterProgram(
+          device_, "beam on a patch", shaders::techniques_light_volumes_beam_on_patch_vert,
           shaders::techniques_light_volumes_beam_on_patch_frag, stateOfDraws(),
-          {{"kIsStill", settings.cosine == Cosine::stillWater}})),
-      counts(gpu::createBuffer(device, "counts of light volumes", sizeof(Counts))),
-      countsRead(gpu::createBuffer(device, "counts to read", sizeof(Counts), gpu::MemoryKind::readback)),
-      noDraws(gpu::createBuffer(device, "no draws", sizeof(BeamDrawCommand), gpu::MemoryKind::upload)),
-      command(gpu::createBuffer(device, "draws of beams", sizeof(BeamDrawCommand))),
-      scattered(device) {
-  noDraws.write(std::vector{kNoDraws});
+          {{"kIsStill", settings_.cosine == Cosine::stillWater}})),
+      counts_(gpu::createBuffer(device_, "counts of light volumes", sizeof(Counts))),
+      countsRead_(gpu::createBuffer(device_, "counts to read", sizeof(Counts), gpu::MemoryKind::readback)),
+      noDraws_(gpu::createBuffer(device_, "no draws", sizeof(BeamDrawCommand), gpu::MemoryKind::upload)),
+      command_(gpu::createBuffer(device_, "draws of beams", sizeof(BeamDrawCommand))),
+      scattered_(device_) {
+  noDraws_.write(std::vector{kNoDraws});
 }
 
 // The groups of bounds so many levels below the root; those of beams where the tree ends before.
@@ -160,98 +160,98 @@ BeamPortion portionOf(const Scene& scene, uint32_t caster, const std::vector<Bea
 }
 
 void LightVolumes::reserve(uvec2 size) {
-  axesU = gpu::createImage(device, "first axes of squares", {.width = size.x, .height = size.y});
-  axesV = gpu::createImage(device, "second axes of squares", {.width = size.x, .height = size.y});
-  gpu::ensureBuffer(device, draws, "beams on patches", kDrawsAPixel * size.x * size.y * sizeof(BeamDraw));
+  axesU_ = gpu::createImage(device_, "first axes of squares", {.width = size.x, .height = size.y});
+  axesV_ = gpu::createImage(device_, "second axes of squares", {.width = size.x, .height = size.y});
+  gpu::ensureBuffer(device_, draws_, "beams on patches", kDrawsAPixel * size.x * size.y * sizeof(BeamDraw));
 }
 
 void LightVolumes::update(GpuScene&) {
-  const Scene& scene = transport.scene();
+  const Scene& scene = transport_.scene();
   const std::vector<ReceiverBox> boxes = receiverBoxes(scene);
   std::vector<std::vector<Beam>> portions;
   std::vector<BeamPortion> ofPortions;
   std::vector<uint32_t> objects;  // that portions come from
-  for (const std::vector<BandQuery>& queries : lightThroughCasters(transport, paths, casters)) {
-    portions.push_back(refinedBeams(scene, source, queries, boxes, division, settings.detail));
+  for (const std::vector<BandQuery>& queries : lightThroughCasters(transport_, paths_, casters_)) {
+    portions.push_back(refinedBeams(scene, source_, queries, boxes, division_, settings_.detail));
     objects.push_back(queries.front().query.object);
     ofPortions.push_back(portionOf(scene, objects.back(), portions.back()));
   }
-  if (settings.contributionError > 0) leaveOutWeakest(portions, double(settings.contributionError));
-  scattered.begin();
+  if (settings_.contributionError > 0) leaveOutWeakest(portions, double(settings_.contributionError));
+  scattered_.begin();
   for (std::size_t i = 0; i < portions.size(); ++i) {
     const Object& caster = scene.objects[objects[i]];
     if (ofPortions[i].extinction != vec3(0) && scatters(scene.materialOf(caster)))
-      scattered.add(scene, objects[i], portions[i], downInto(caster));
+      scattered_.add(scene, objects[i], portions[i], downInto(caster));
   }
-  tree = buildBeamTree(portions);
-  beams.write(device, tree.beams);
-  bounds.write(device, tree.bounds);
-  gpu::ensureBuffer(device, portionsRead, "portions of light volumes",
+  tree_ = buildBeamTree(portions);
+  beams_.write(device_, tree_.beams);
+  bounds_.write(device_, tree_.bounds);
+  gpu::ensureBuffer(device_, portionsRead_, "portions of light volumes",
                     ofPortions.size() * sizeof(BeamPortion), gpu::MemoryKind::upload);
-  portionsRead.write(ofPortions);
+  portionsRead_.write(ofPortions);
 }
 
 void LightVolumes::record(gpu::CommandList& commands, GpuScene&) {
-  if (tree.beams.empty()) return;
+  if (tree_.beams.empty()) return;
   commands.pass("light volumes", [&] {
-    beams.copy(commands);
-    bounds.copy(commands);
-    scattered.upload(commands);
+    beams_.copy(commands);
+    bounds_.copy(commands);
+    scattered_.upload(commands);
   });
 }
 
 void LightVolumes::shade(gpu::CommandList& commands, const ReceiverPoints& points,
                          const gpu::Image& causticsLux) {
-  if (tree.beams.empty()) return;
+  if (tree_.beams.empty()) return;
   const uvec2 imageSize(causticsLux.width(), causticsLux.height());
   const gpu::Region region = points.region.value_or(gpu::Region{{0, 0}, imageSize});
   const uvec2 tiles = (region.size + kTileSize - 1u) / kTileSize;
   PatchConstants listing{};
-  listing.counts = counts.address();
-  listing.draws = draws.address();
-  listing.command = command.address();
-  listing.room = uint32_t(draws.size() / sizeof(BeamDraw));
+  listing.counts = counts_.address();
+  listing.draws = draws_.address();
+  listing.command = command_.address();
+  listing.room = uint32_t(draws_.size() / sizeof(BeamDraw));
   listing.corner = region.corner;
   listing.size = ivec2(region.size);
-  const BeamDrawConstants drawing{portionsRead.address(), draws.address(), vec2(imageSize)};
+  const BeamDrawConstants drawing{portionsRead_.address(), draws_.address(), vec2(imageSize)};
   commands.pass("beams on patches", [&] {
-    commands.copy(noDraws, command, sizeof(BeamDrawCommand));
-    if (isFirstView) commands.fill(counts, 0);
-    isFirstView = false;
-    for (const uint32_t root : rootsBelow(tree, levelOfRoots)) {
+    commands.copy(noDraws_, command_, sizeof(BeamDrawCommand));
+    if (isFirstView_) commands.fill(counts_, 0);
+    isFirstView_ = false;
+    for (const uint32_t root : rootsBelow(tree_, levelOfRoots_)) {
       listing.root = root;
       commands.barrier();
-      commands.dispatch(patches, {tiles.x * device.subgroupSize(), tiles.y, 1}, listing,
+      commands.dispatch(patches_, {tiles.x * device_.subgroupSize(), tiles.y, 1}, listing,
                         {{"receiverPosition", *points.position},
                          {"receiverNormal", *points.normal},
-                         {"axesU", axesU},
-                         {"axesV", axesV},
-                         {"boundsTexels", bounds.image()},
-                         {"beamTexels", beams.image()}});
+                         {"axesU", axesU_},
+                         {"axesV", axesV_},
+                         {"boundsTexels", bounds_.image()},
+                         {"beamTexels", beams_.image()}});
     }
   });
   drawCaustics(commands, points, causticsLux, [&] {
-    commands.drawIndirect(beamOnPatch, command, drawing,
+    commands.drawIndirect(beamOnPatch_, command_, drawing,
                           {{"receiverPosition", *points.position},
-                           {"axesU", axesU},
-                           {"axesV", axesV},
-                           {"beamTexels", beams.image()}});
+                           {"axesU", axesU_},
+                           {"axesV", axesV_},
+                           {"beamTexels", beams_.image()}});
   });
   commands.barrier();
-  commands.copy(counts, countsRead, sizeof(Counts));
+  commands.copy(counts_, countsRead_, sizeof(Counts));
 }
 
 bool LightVolumes::finish() {
-  isFirstView = true;
-  const Counts counted = tree.beams.empty() ? Counts{} : countsRead.as<Counts>()[0];
-  setCount(stats, "light_volumes", tree.beams.size());
-  setCount(stats, "bounds_tested", counted.tested);
-  setCount(stats, "bounds_culled", counted.culled);
-  setCount(stats, "volumes_drawn", counted.drawn);
-  if (scattered.count() > 0) setCount(stats, "volumes_in_layers", scattered.count());
-  if (counted.unfinished > 0) ++levelOfRoots;
+  isFirstView_ = true;
+  const Counts counted = tree_.beams.empty() ? Counts{} : countsRead_.as<Counts>()[0];
+  setCount(stats_, "light_volumes", tree_.beams.size());
+  setCount(stats_, "bounds_tested", counted.tested);
+  setCount(stats_, "bounds_culled", counted.culled);
+  setCount(stats_, "volumes_drawn", counted.drawn);
+  if (scattered_.count() > 0) setCount(stats_, "volumes_in_layers", scattered_.count());
+  if (counted.unfinished > 0) ++levelOfRoots_;
   if (counted.wanted > 0)
-    gpu::ensureBuffer(device, draws, "beams on patches", counted.wanted * sizeof(BeamDraw));
+    gpu::ensureBuffer(device_, draws_, "beams on patches", counted.wanted * sizeof(BeamDraw));
   return counted.unfinished == 0 && counted.wanted == 0;
 }
 
@@ -261,18 +261,19 @@ std::unique_ptr<Technique> make(const TechniqueContext& context) {
 
 constexpr Setting kSettings[] = {
     choiceSetting<&LightVolumeSettings::culling>(
-        "culling", "Find light volumes down their hierarchy, or ask each of them for every block of pixels"),
+        "culling",
+        "How the light volumes of a block of pixels are found. hierarchical: by their hierarchy; flat: by a "
+        "test of each volume"),
     choiceSetting<&LightVolumeSettings::cosine>(
         "cosine",
-        "The cosine between a light volume and a receiver: each volume's own, or that of the light's mean "
-        "direction, which is right for still water"),
+        "The cosine between a light volume and a receiver's normal. exact: for each volume; still-water: for "
+        "the light's mean direction, which is right for still water"),
     realSetting<&LightVolumeSettings::contributionError>(
         "contribution-error", 0, 1,
-        "The part of the light that may be left out, the weakest light volumes first"),
-    wholeSetting<&LightVolumeSettings::detail>(
-        "volume-detail", 16, 8192,
-        "Texels along each side of the planes about the light on which it is judged whether a light volume "
-        "bends and has to be divided"),
+        "The part (0 to 1) of the light that may be left out; the weakest light volumes are left out first"),
+    wholeSetting<&LightVolumeSettings::detail>("volume-detail", 16, 8192,
+                                               "Texels along each side of the planes on which it is tested "
+                                               "whether a light volume bends and has to be divided"),
 };
 constexpr SettingsOwner kOwners[] = {settingsOwner<LightVolumeSettings>("light-volumes", kSettings)};
 

@@ -48,8 +48,8 @@ vec4 receiverAt(ivec2 at) {
   return imageLoad(receiverPosition, clamp(at, ivec2(0), imageSize(receiverPosition) - 1));
 }
 
-// m from one pixel to the next on the tangent plane; of its two neighbours the one that lies nearer to it.
-// None where a caster shows both of them what it shows the pixel, and for a neighbour past the image's edge.
+// m from one pixel to the next on the tangent plane; of its two neighbors the one that lies nearer to it.
+// None where a caster shows both of them what it shows the pixel, and for a neighbor past the image's edge.
 vec3 stepAlong(ivec2 at, ivec2 along, vec3 point, vec3 normal) {
   const vec4 next = receiverAt(at + along), last = receiverAt(at - along);
   const vec3 forward = next.xyz - point, backward = point - last.xyz;
@@ -71,7 +71,7 @@ ReceiverSquare squareAt(ivec2 at) {
   square.normal = normalize(imageLoad(receiverNormal, at).xyz);
   vec3 stepU = stepAlong(at, ivec2(1, 0), square.point, square.normal);
   vec3 stepV = stepAlong(at, ivec2(0, 1), square.point, square.normal);
-  // A pixel without neighbours is taken for a small square.
+  // A pixel without neighbors is taken for a small square.
   if (stepU == vec3(0) && stepV == vec3(0))
     stepU = max(16 * finestStep(square.point), 1e-6) *
             normalize(cross(square.normal, square.normal.yzx + vec3(0, 0, 1)));
@@ -117,7 +117,7 @@ ivec2 placeInTile(uint pixel) {
 }
 
 // Whether any beam may light what a tile shows. Its pixels' squares reach half as far to one side as its
-// neighbours lie to the other.
+// neighbors lie to the other.
 bool isWithinBeams(ivec2 tile) {
   vec4 low = vec4(1e30), high = vec4(-1e30);
   const uint width = kTileSize + 2;
@@ -178,7 +178,7 @@ struct Blocks {
 // Pixels that show nearly one plane: that of the square `plane`.
 struct Patch {
   ReceiverSquare plane;
-  vec3 low, high;  // m, the box of what they show
+  vec3 low, high;  // m, the box around the visible surfaces
   Blocks blocks;
   float heightLow, heightHigh;  // m off the plane
   float spread;                 // the most that a normal differs from the plane's
@@ -192,7 +192,7 @@ Blocks blocksBetween(vec4 lowX, vec4 lowY, vec4 highX, vec4 highY) {
 
 // Takes from `waiting` the pixels that lie well with the square `plane`, and names them.
 Patch takePatch(ivec2 tile, ReceiverSquare plane, bool isLast, float id, inout uint waiting) {
-  const float pixelsPerMetre = sqrt(abs(plane.inverseArea));
+  const float pixelsPerMeter = sqrt(abs(plane.inverseArea));
   vec4 low = vec4(1e30), high = vec4(-1e30);  // a: m off the plane
   vec4 lowX = vec4(1e30), lowY = vec4(1e30), highX = vec4(-1e30), highY = vec4(-1e30);
   float spread = 0;
@@ -204,7 +204,7 @@ Patch takePatch(ivec2 tile, ReceiverSquare plane, bool isLast, float id, inout u
     const vec3 offset = square.point - plane.point;
     const vec2 onPlane = vec2(dot(offset, plane.axisU), dot(offset, plane.axisV));
     const float height = dot(offset, plane.normal);
-    const bool fits = isLast || (abs(height) * pixelsPerMetre <= kMostHeight &&
+    const bool fits = isLast || (abs(height) * pixelsPerMeter <= kMostHeight &&
                                  dot(square.normal, plane.normal) >= kLeastCosine);
     if (!fits) continue;
     waiting &= ~bit;

@@ -1,10 +1,10 @@
-// The square of the receiver that a pixel shows.
+// The part of a receiver, a square on its tangent plane, that a pixel shows.
 struct ReceiverSquare {
   vec3 point;   // m, its middle
   vec3 normal;  // unit; zero where there is no receiver
-  vec3 axisU;   // pixels per metre, on the tangent plane
+  vec3 axisU;   // pixels per meter, on the tangent plane
   vec3 axisV;
-  float inverseArea;  // 1/m^2, negative where the axes turn the other way about the normal
+  float inverseArea;  // 1/m^2; negative where the axes are left-handed about the normal
 };
 
 vec4 axisUTexel(ReceiverSquare square) {

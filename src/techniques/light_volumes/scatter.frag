@@ -36,16 +36,16 @@ void main() {
   const float part = packedDirection.z, before = packedDirection.w;
   const LayerGrid grid = constants.grid;
   const vec3 begin = placeInLayers(grid, start.xyz);
-  const vec3 perMetre = placeInLayers(grid, start.xyz + direction) - begin;
-  const vec2 inside = wayThroughBox(vec3(0), vec3(grid.size, grid.layers - 1), begin, perMetre, start.a);
+  const vec3 perMeter = placeInLayers(grid, start.xyz + direction) - begin;
+  const vec2 inside = wayThroughBox(vec3(0), vec3(grid.size, grid.layers - 1), begin, perMeter, start.a);
   const float way = max(inside.y - inside.x, 0);
-  const float changes = way * max(length(perMetre.xy) / kTexelsInStep, abs(perMetre.z) / kLayersInStep);
+  const float changes = way * max(length(perMeter.xy) / kTexelsInStep, abs(perMeter.z) / kLayersInStep);
   const int steps = start.a > 0 && way > 0 ? int(clamp(ceil(changes), kFewestSteps, kMostSteps)) : 0;
   const float step = way / float(max(steps, 1));
   vec3 sum = vec3(0);
   for (int i = 0; i < steps; ++i) {
     const float along = inside.x + (float(i) + 0.5) * step;
-    const vec4 light = lightAt(begin + along * perMetre);
+    const vec4 light = lightAt(begin + along * perMeter);
     const float lux = max(light.x, 1e-20);
     const vec3 travels = normalize(grid.axisW + light.y / lux * grid.axisU + light.z / lux * grid.axisV);
     const float phase = phaseFunction(constants.phase, constants.g, -dot(travels, direction));

@@ -1,4 +1,4 @@
-// What is told of light that a volume scatters toward the eye, for C++ and GLSL.
+// The constants for light that a volume scatters toward the eye, for C++ and GLSL.
 #ifndef NEPHROID_TECHNIQUES_LIGHT_VOLUMES_SCATTER_DATA_H
 #define NEPHROID_TECHNIQUES_LIGHT_VOLUMES_SCATTER_DATA_H
 
@@ -10,7 +10,7 @@ SHARED_BEGIN
 
 struct ScatterConstants {
   LayerGrid grid;
-  vec3 scattering;  // nit per metre and 1/sr of what the layers' texels hold
+  vec3 scattering;  // nit per meter and 1/sr of what the layers' texels hold
   vec3 extinction;  // 1/m
   uint phase;       // kPhase...
   float g;

@@ -1,5 +1,5 @@
-// Light that water scatters on the way of its beams (god rays; after the sampling of shafts by planes in
-// Dobashi 2002, on layers across the beams).
+// Light that water scatters along its beams (god rays). It is sampled on layers across the beams, as Dobashi
+// 2002 samples shafts on planes.
 #pragma once
 
 #include <vector>
@@ -12,15 +12,16 @@
 
 namespace nephroid {
 
-// One frame is begin, add for each portion of the light, upload, then draw for each object that scatters.
+// For each frame: call begin, add for each portion of the light, upload, then draw for each object that
+// scatters.
 class ScatteredLight {
  public:
-  // The device outlives it.
+  // The device must outlive it.
   explicit ScatteredLight(gpu::Device& device);
 
   void begin() { count_ = 0; }
 
-  // Light in an object of a material that scatters, which goes along unit `axis`, give or take.
+  // Adds light inside an object whose material scatters. The light goes about along `axis` (unit).
   void add(const Scene& scene, uint32_t object, std::span<const Beam> beams, vec3 axis);
 
   std::size_t count() const { return count_; }

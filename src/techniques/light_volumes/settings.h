@@ -1,3 +1,4 @@
+// The settings of light volumes.
 #pragma once
 
 #include <array>
@@ -6,7 +7,7 @@
 
 namespace nephroid {
 
-// How light volumes are found for a block of pixels: down their hierarchy, or each of them asked.
+// How the light volumes of a block of pixels are found: by their hierarchy, or by a test of each.
 enum class Culling { hierarchical, flat };
 
 inline constexpr std::array<const char*, 2> kCullingNames{"hierarchical", "flat"};
@@ -14,8 +15,8 @@ constexpr const auto& namesOf(Culling) {
   return kCullingNames;
 }
 
-// The cosine between a light volume and a receiver's normal: each volume's own, or that of the light's mean
-// direction, which through still water is that of all of it (Barczak and Olano, 3.2).
+// The cosine between a light volume and a receiver's normal. exact: for each volume. stillWater: for the
+// light's mean direction, which is right for all light through still water (Barczak and Olano, 3.2).
 enum class Cosine { exact, stillWater };
 
 inline constexpr std::array<const char*, 2> kCosineNames{"exact", "still-water"};
@@ -26,8 +27,8 @@ constexpr const auto& namesOf(Cosine) {
 struct LightVolumeSettings {
   Culling culling = Culling::hierarchical;
   Cosine cosine = Cosine::exact;
-  float contributionError = 0;  // the part of the light that light volumes may leave out
-  uint32_t detail = 512;  // texels along each side of the planes on which it is judged whether a volume bends
+  float contributionError = 0;  // 0..1, the part of the light that may be left out
+  uint32_t detail = 512;  // texels along each side of the planes on which it is tested whether a volume bends
   bool operator==(const LightVolumeSettings&) const = default;
 };
 

@@ -1,3 +1,4 @@
+// Data that light volumes share between the processor and their shaders.
 #ifndef NEPHROID_TECHNIQUES_LIGHT_VOLUMES_SHADER_DATA_H
 #define NEPHROID_TECHNIQUES_LIGHT_VOLUMES_SHADER_DATA_H
 
@@ -9,30 +10,30 @@
 #ifndef __cplusplus
 layout(buffer_reference, scalar) buffer LightVolumeCounts {
   uint tested;      // bounds
-  uint culled;      // of these, with all that is in them
+  uint culled;      // of these, rejected with everything inside
   uint drawn;       // beams on patches
-  uint wanted;      // the most draws that any list had or would have had room for
-  uint unfinished;  // tiles that a device gave up
+  uint wanted;      // the largest number of draws that a list needed; 0: all lists had enough room
+  uint unfinished;  // tiles that a device did not finish
 };
 #endif
 
 SHARED_BEGIN
 
-// A group's square of pixels.
+// The side (pixels) of a tile, the square of pixels of one group.
 SHARED_CONSTANT uint kTileSize = 8u;
 SHARED_CONSTANT uint kTilePixels = kTileSize * kTileSize;
-// A tile has four of these.
+// The side (pixels) of a block; a tile has four blocks.
 SHARED_CONSTANT uint kBlockSize = 4u;
-// Of the images that hold beams and bounds.
+// The layout of the images that hold beams and bounds.
 SHARED_CONSTANT uint kTexelsInRow = 4096u;
 SHARED_CONSTANT uint kTexelsOfBounds = 4u;
 SHARED_CONSTANT uint kTexelsOfBeam = 6u;
-// Pixels of a tile that show nearly one plane are a patch; the last takes all others.
+// The pixels of a tile that show nearly the same plane are a patch. The last patch has all other pixels.
 SHARED_CONSTANT uint kMostPatches = 4u;
 
 // Beams of one lamp and one caster.
 struct BeamPortion {
-  vec3 still;       // the way that its light would go through still water; unit
+  vec3 still;       // unit, the direction of its light through still water
   vec3 extinction;  // 1/m, of the water that its light goes through
 };
 
@@ -41,10 +42,10 @@ struct BeamDraw {
   uint beam;
   uint portion;
   uint corner;  // x and y of the first pixel, 16 bits each
-  uint square;  // the number of pixels along a side; 8 bits and above, the patch as squareV tells it
+  uint square;  // the pixels along a side (low 8 bits); above, the patch, as in squareV
 };
 
-// VkDrawIndirectCommand, and how many draws were asked for.
+// A VkDrawIndirectCommand, and the number of draws that the list needed.
 struct BeamDrawCommand {
   uint vertices;
   uint instances;

@@ -6,7 +6,7 @@
 
 const int kStepsToReceiver = kGoesAlongAxis != 0 ? 4 : 6;
 
-// A corner ray in the virtual camera's frame: metres along axisU, axisV and axisW.
+// A corner ray in the virtual camera's frame: meters along axisU, axisV and axisW.
 struct Ray {
   vec3 start;
   vec3 direction;  // unit
@@ -36,7 +36,7 @@ Arrival arrivalOf(Ray ray, float reach) {
   const float toNearest = distanceToDepth(ray, set.nearestDepth),
               toFarthest = distanceToDepth(ray, set.farthestDepth);
   const float nearest = max(min(toNearest, toFarthest), 0), farthest = max(max(toNearest, toFarthest), 0);
-  const vec2 center = set.windows[0].corner + 0.5 * set.windows[0].size / set.windows[0].texelsPerMetre;
+  const vec2 center = set.windows[0].corner + 0.5 * set.windows[0].size / set.windows[0].texelsPerMeter;
   const float middle = set.firstDepth + 0.5 * float(set.planes - 1) * set.depthStep;
   float distance = abs(ray.direction.z) >= kLeastPlaneApproach
                        ? distanceToDepth(ray, middle)
@@ -46,7 +46,7 @@ Arrival arrivalOf(Ray ray, float reach) {
   distance = clamp(distance, nearest, farthest);
   float toSeen = distance;  // to the last tangent plane of what was seen
   TangentPlane plane = TangentPlane(vec3(0, 0, -1), -middle);
-  float change, metresPerTexel;
+  float change, metersPerTexel;
   int step = 0;
   bool isSeen, isLit, isThere;
   do {
@@ -57,12 +57,12 @@ Arrival arrivalOf(Ray ray, float reach) {
       window = 1;
       place = texelOfWindow(set.windows[1], point.xy);
     }
-    metresPerTexel = 1 / set.windows[window].texelsPerMetre;
+    metersPerTexel = 1 / set.windows[window].texelsPerMeter;
     const vec2 texel = clamp(floor(place), vec2(0), vec2(set.windows[window].size - 1));
     const float seen = texelFetch(seenDepths, ivec3(texel, window), 0).r;
     const vec3 normal = unpackedNormal(texelFetch(seenNormals, ivec3(texel, window), 0).r);
     const float seenDepth = set.nearestDepth + seen * range;
-    const TangentPlane next = tangentPlane(vec3(point.xy - (place - texel - 0.5) * metresPerTexel, seenDepth),
+    const TangentPlane next = tangentPlane(vec3(point.xy - (place - texel - 0.5) * metersPerTexel, seenDepth),
                                            vec3(normal.xy, -normal.z));
     const PlaneMeeting meeting = meetTangentPlane(point, ray.direction, next);
     isLit =
@@ -72,13 +72,13 @@ Arrival arrivalOf(Ray ray, float reach) {
     if (isSeen) plane = next;
     if (isSeen) toSeen = clamp(toPlane, nearest, farthest);
     change = abs(toSeen - distance);
-    isThere = isSeen && change < 1e-4 * metresPerTexel;
+    isThere = isSeen && change < 1e-4 * metersPerTexel;
     // Past the receivers' edge, or the window's: they are nearer to where the ray comes from.
     distance = isSeen ? toSeen : 0.5 * (distance + nearest);
   } while (!isThere && ++step < kStepsToReceiver);
   // A ray that passes a receiver by goes as far as the others of its beam.
   if (!isSeen) distance = toSeen;
-  const float tolerance = 2 * metresPerTexel + 1e-3 * range;
+  const float tolerance = 2 * metersPerTexel + 1e-3 * range;
   const bool isMet = isSeen && isLit && change <= tolerance;
   if (isReachKnown)
     return Arrival(distance, isMet && abs(distance - reach) <= 0.01 * reach + tolerance, plane);

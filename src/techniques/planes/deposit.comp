@@ -1,13 +1,12 @@
-// Leaves every beam's flux on the virtual planes, so that nothing is lost or made where a beam is narrower
-// than a texel.
+// Adds every beam's flux to the virtual planes. The flux is kept also where a beam is narrower than a texel.
 //
 // Flat planes are those of Iwasaki 2005b (eq. 3, with the flux in place of intensity times area ratio). A
-// plane that follows the receivers is bent, within half the distance to its neighbours, onto what the virtual
-// camera sees: light is then left where it arrives, and nothing is smeared between planes.
+// plane that follows the receivers bends, within half the distance to its neighbors, onto the surfaces that
+// the virtual camera sees. Light is then stored where it arrives, and is not blurred between planes.
 //
-// A group is one subgroup. Each thread finds where one beam falls; then all of them, as a block a texel a
-// thread, move over one beam's footprint after the other. Loops ask at their end: a software device passes
-// once through all that stands in one, whether it has threads for it or not.
+// A group is one subgroup. First each thread computes where one beam falls. Then all threads together go
+// through one beam's footprint after the other, in blocks with one texel for each thread. Loops test their
+// condition at the end, because a software device runs the body of a loop once even where no thread needs it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -17,8 +16,8 @@
 
 layout(constant_id = 0) const uint kChannels = 3;
 layout(constant_id = 1) const uint kFollowsReceivers = 1;
-// Light goes along axisW, give or take: where nobody knows what it meets first, that is what the virtual
-// camera sees.
+// Light goes about along axisW. So where the first surface that it meets is not known, the one that the
+// virtual camera sees is used.
 layout(constant_id = 2) const uint kGoesAlongAxis = 1;
 layout(local_size_x_id = 3) in;
 layout(push_constant, scalar) uniform Constants {
@@ -47,10 +46,10 @@ Crossing crossingAt(Ray rays[3], vec3 distances) {
   return crossing;
 }
 
-// How far a plane reaches that follows the receivers, m to either side: half the way to its neighbours, and a
-// little more because neighbouring texels may be asked for that lie past the border.
+// How far a plane reaches that follows the receivers, m to either side: half the way to its neighbors, and a
+// little more because neighboring texels may be asked for that lie past the border.
 float reachOf(uint window) {
-  return 0.5 * constants.set.depthStep + 3 / constants.set.windows[window].texelsPerMetre;
+  return 0.5 * constants.set.depthStep + 3 / constants.set.windows[window].texelsPerMeter;
 }
 
 // On a plane that follows the receivers, corners that arrive nearer to another one, or nowhere, go to the
@@ -110,7 +109,7 @@ uvec2 planesOf(vec3 depths, uint window) {
 // inside on both of the outermost planes is so between them.
 bool isInsideInnerWindow(Ray rays[3], Arrival arrivals[3], uvec2 planes) {
   const Window window = constants.set.windows[0];
-  const float border = 1 + 2 * window.texelsPerMetre / constants.set.windows[1].texelsPerMetre;
+  const float border = 1 + 2 * window.texelsPerMeter / constants.set.windows[1].texelsPerMeter;
   bool isInside = true;
   for (uint end = 0; end < 2; ++end) {
     const Crossing crossing = crossingOf(rays, arrivals, end == 0 ? planes.x : planes.x + planes.y - 1, 1);
@@ -170,7 +169,7 @@ struct Target {
   uint window;
   float fineness;  // of its texels, against those of the window
   vec3 units;      // of flux, by channel
-  vec3 along;  // the beam, m along the axes for each metre that it comes nearer to or farther from the plane
+  vec3 along;  // the beam, m along the axes for each meter that it comes nearer to or farther from the plane
 };
 
 Target shuffled(Target target, uint thread) {
@@ -182,7 +181,7 @@ Target shuffled(Target target, uint thread) {
 // Whether a footprint, its corners in the window's texels, is wide and dim.
 bool isForCoarsePart(vec2 a, vec2 b, vec2 c, float units, uint window) {
   const Window inner = constants.set.windows[0];
-  const float texels = inner.size * constants.set.windows[window].texelsPerMetre / inner.texelsPerMetre;
+  const float texels = inner.size * constants.set.windows[window].texelsPerMeter / inner.texelsPerMeter;
   const vec2 extent = max(max(a, b), c) - min(min(a, b), c);
   return max(extent.x, extent.y) > kWideFootprint &&
          units * texels * texels < 0.5 * kDimFootprint * kUnitsOfAllFlux * abs(doubledArea(a, b, c));
@@ -280,7 +279,7 @@ void main() {
   }
   Target target;
   target.along = direction / abs(direction.z);
-  target.units = beam.flux / set.luxMetresSquaredPerUnit;
+  target.units = beam.flux / set.luxMetersSquaredPerUnit;
   // One channel stands for all that have light; the first may have none.
   if (kChannels == 1) target.units.x = most(target.units);
 

@@ -26,7 +26,7 @@ ViewConstants viewOf(const PlaneSet& set, uint32_t window, uint32_t imageSize) {
     return vec4(axis / (to - from), -from / (to - from));
   };
   const auto inImage = [&](vec3 axis, float from) {
-    const float to = from + float(imageSize) / set.windows[window].texelsPerMetre;
+    const float to = from + float(imageSize) / set.windows[window].texelsPerMeter;
     return 2.0f * row(axis, from, to) - vec4(0, 0, 0, 1);
   };
   ViewConstants constants{};
@@ -103,32 +103,32 @@ std::vector<uint32_t> textureSizes(std::span<const LightPortion> portions, uint3
 }  // namespace
 
 PlaneTechnique::PlaneTechnique(const TechniqueContext& context, const PlaneTechniqueKind& kindOf)
-    : device(context.device),
-      transportSettings(context.settings.transport),
-      division(context.settings.beams),
-      settings(settingsFor(context.transport.scene(), context.settings.own.of<PlaneSettings>())),
-      kind(kindOf),
-      stats(context.stats),
-      transport(context.transport),
-      casters(context.casters),
-      source(transport.source()),
-      receiversProgram(
-          gpu::createRasterProgram(device, kind.viewPass, shaders::techniques_planes_receivers_vert,
+    : device_(context.device),
+      transportSettings_(context.settings.transport),
+      division_(context.settings.beams),
+      settings_(settingsFor(context.transport.scene(), context.settings.own.of<PlaneSettings>())),
+      kind_(kindOf),
+      stats_(context.stats),
+      transport_(context.transport),
+      casters_(context.casters),
+      source_(transport_.source()),
+      receiversProgram_(
+          gpu::createRasterProgram(device_, kind_.viewPass, shaders::techniques_planes_receivers_vert,
                                    shaders::techniques_planes_receivers_frag,
                                    {.colors = {{VK_FORMAT_R32_UINT}}, .depthFormat = VK_FORMAT_D32_SFLOAT})),
-      depositPrograms{depositProgram(device, "deposit", 1, settings, kind.goesAlongAxis),
-                      depositProgram(device, "deposit in color", 3, settings, kind.goesAlongAxis)},
-      shadePrograms{shadeProgram(device, "caustics", 1, settings),
-                    shadeProgram(device, "caustics in color", 3, settings)},
-      texelSampler(gpu::createSampler(device, {.filter = VK_FILTER_NEAREST})) {}
+      depositPrograms_{depositProgram(device_, "deposit", 1, settings_, kind_.goesAlongAxis),
+                       depositProgram(device_, "deposit in color", 3, settings_, kind_.goesAlongAxis)},
+      shadePrograms_{shadeProgram(device_, "caustics", 1, settings_),
+                     shadeProgram(device_, "caustics in color", 3, settings_)},
+      texelSampler_(gpu::createSampler(device_, {.filter = VK_FILTER_NEAREST})) {}
 
 std::vector<LightPortion> PlaneTechnique::portionsOfLight(std::span<const ReceiverBox> boxes) const {
-  const Scene& scene = transport.scene();
+  const Scene& scene = transport_.scene();
   std::vector<LightPortion> portions;
   for (const std::vector<BandQuery>& queries :
-       lightThroughCasters(transport, transportSettings.paths, casters)) {
-    std::vector<Beam> all = refinedBeams(scene, source, queries, boxes, division, settings.textureSize);
-    if (!kind.goesAlongAxis)
+       lightThroughCasters(transport_, transportSettings_.paths, casters_)) {
+    std::vector<Beam> all = refinedBeams(scene, source_, queries, boxes, division_, settings_.textureSize);
+    if (!kind_.goesAlongAxis)
       portions.push_back({vec3(0), std::move(all), 0});
     else
       std::ranges::move(portionsByAxis(std::move(all), boxes), std::back_inserter(portions));
@@ -137,44 +137,44 @@ std::vector<LightPortion> PlaneTechnique::portionsOfLight(std::span<const Receiv
 }
 
 void PlaneTechnique::update(GpuScene&) {
-  const std::vector<ReceiverBox> boxes = receiverBoxes(transport.scene());
+  const std::vector<ReceiverBox> boxes = receiverBoxes(transport_.scene());
   std::vector<LightPortion> portions = portionsOfLight(boxes);
-  const std::vector<uint32_t> sizes = textureSizes(portions, settings.textureSize);
-  lit.clear();
+  const std::vector<uint32_t> sizes = textureSizes(portions, settings_.textureSize);
+  lit_.clear();
   for (std::size_t i = 0; i < portions.size(); ++i) {
     LitPlanes own{std::move(portions[i]), {}, sizes[i], 3};
-    own.planes = kind.plan(transport.scene(), own.light, boxes, kind.planes, own.textureSize);
+    own.planes = kind_.plan(transport_.scene(), own.light, boxes, kind_.planes, own.textureSize);
     if (own.planes.planes == 0) continue;
     own.channels = areOfOneColor(own.light.beams) ? 1 : 3;
-    lit.push_back(std::move(own));
+    lit_.push_back(std::move(own));
   }
   std::size_t beamCount = 0;
-  for (const LitPlanes& own : lit) beamCount += own.light.beams.size();
-  setCount(stats, "beams", beamCount);
-  setCount(stats, "plane_sets", lit.size());
+  for (const LitPlanes& own : lit_) beamCount += own.light.beams.size();
+  setCount(stats_, "beams", beamCount);
+  setCount(stats_, "plane_sets", lit_.size());
   upload();
 }
 
 void PlaneTechnique::upload() {
-  beamBytes = 0;
-  for (const LitPlanes& own : lit) beamBytes += own.light.beams.size() * sizeof(Beam);
-  gpu::ensureBuffer(device, beamUpload, "beams to upload", beamBytes, gpu::MemoryKind::upload);
-  gpu::ensureBuffer(device, beams, "beams", beamBytes, gpu::MemoryKind::device);
+  beamBytes_ = 0;
+  for (const LitPlanes& own : lit_) beamBytes_ += own.light.beams.size() * sizeof(Beam);
+  gpu::ensureBuffer(device_, beamUpload_, "beams to upload", beamBytes_, gpu::MemoryKind::upload);
+  gpu::ensureBuffer(device_, beams_, "beams", beamBytes_, gpu::MemoryKind::device);
   VkDeviceSize offset = 0;
-  for (const LitPlanes& own : lit) {
-    beamUpload.write(own.light.beams, offset);
+  for (const LitPlanes& own : lit_) {
+    beamUpload_.write(own.light.beams, offset);
     offset += own.light.beams.size() * sizeof(Beam);
   }
-  if (images.size() < lit.size()) images.resize(lit.size());
-  for (std::size_t set = 0; set < lit.size(); ++set) ensureImages(set);
+  if (images_.size() < lit_.size()) images_.resize(lit_.size());
+  for (std::size_t set = 0; set < lit_.size(); ++set) ensureImages(set);
 }
 
 std::vector<Lattice> PlaneTechnique::lattices() const {
   std::vector<Lattice> all;
-  for (const LitPlanes& own : lit)
+  for (const LitPlanes& own : lit_)
     for (uint32_t plane = 0; plane < own.planes.planes; ++plane)
       for (const Window& window : own.planes.windows) {
-        const float side = window.size / window.texelsPerMetre;
+        const float side = window.size / window.texelsPerMeter;
         const vec3 corner = window.corner.x * own.planes.axisU + window.corner.y * own.planes.axisV +
                             (own.planes.firstDepth + float(plane) * own.planes.depthStep) * own.planes.axisW;
         all.push_back(
@@ -186,35 +186,35 @@ std::vector<Lattice> PlaneTechnique::lattices() const {
 std::vector<PassOutput> PlaneTechnique::outputs() const {
   constexpr float kShownUnits = 1e-6f;  // of the flux that is left in a texel
   std::vector<PassOutput> all;
-  for (std::size_t set = 0; set < lit.size(); ++set) {
-    all.push_back({kind.viewPass, "depths", &images[set].depths, kShowDepth});
-    all.push_back({kind.texturesPass, "flux", &images[set].textures, kShowLight, kShownUnits});
+  for (std::size_t set = 0; set < lit_.size(); ++set) {
+    all.push_back({kind_.viewPass, "depths", &images_[set].depths, kShowDepth});
+    all.push_back({kind_.texturesPass, "flux", &images_[set].textures, kShowLight, kShownUnits});
   }
   return all;
 }
 
 void PlaneTechnique::ensureImages(std::size_t set) {
-  const uint32_t size = lit[set].textureSize;
+  const uint32_t size = lit_[set].textureSize;
   const auto image = [&](const char* name, VkFormat format, uint32_t layers) {
-    return gpu::createImage(device, name,
+    return gpu::createImage(device_, name,
                             {.format = format, .width = size, .height = size, .layers = layers});
   };
-  PlaneImages& own = images[set];
+  PlaneImages& own = images_[set];
   if (!own.depths || own.depths.width() != size) {
     own = {};
     own.normals = image("receivers' normals", VK_FORMAT_R32_UINT, kWindows);
     own.depths = image("receivers' depths", VK_FORMAT_D32_SFLOAT, kWindows);
   }
-  const uint32_t layers = layersOfChannel(lit[set].planes) * lit[set].channels;
+  const uint32_t layers = layersOfChannel(lit_[set].planes) * lit_[set].channels;
   if (!own.textures || own.textures.layerCount() < layers)
     own.textures = image("illumination textures", VK_FORMAT_R32_UINT, layers);
 }
 
 void PlaneTechnique::drawReceivers(gpu::CommandList& commands, const GpuScene& gpuScene, std::size_t set) {
-  const PlaneImages& own = images[set];
-  const PlaneSet& planes = lit[set].planes;
+  const PlaneImages& own = images_[set];
+  const PlaneSet& planes = lit_[set].planes;
   for (uint32_t window = 0; window < kWindows; ++window) {
-    ViewConstants constants = viewOf(planes, window, lit[set].textureSize);
+    ViewConstants constants = viewOf(planes, window, lit_[set].textureSize);
     constants.vertices = gpuScene.vertices();
     constants.objects = gpuScene.objects();
     commands.render({.colors = {{&own.normals, window, vec4(0)}},
@@ -224,39 +224,39 @@ void PlaneTechnique::drawReceivers(gpu::CommandList& commands, const GpuScene& g
                       for (const SceneDraw& draw : gpuScene.draws()) {
                         if (draw.type != MaterialType::diffuse) continue;
                         constants.object = draw.object;
-                        commands.drawIndexed(receiversProgram, gpuScene.indices(), draw.range, 1, constants);
+                        commands.drawIndexed(receiversProgram_, gpuScene.indices(), draw.range, 1, constants);
                       }
                     });
   }
 }
 
 void PlaneTechnique::deposit(gpu::CommandList& commands, std::size_t set, VkDeviceAddress ofBeams) {
-  const PlaneImages& own = images[set];
-  const std::size_t all = lit[set].light.beams.size();
-  const std::size_t most = kMostGroupsADispatch * device.subgroupSize();
+  const PlaneImages& own = images_[set];
+  const std::size_t all = lit_[set].light.beams.size();
+  const std::size_t most = kMostGroupsADispatch * device_.subgroupSize();
   for (std::size_t first = 0; first < all; first += most) {
     const auto count = uint32_t(std::min(all - first, most));
-    commands.dispatch(
-        depositPrograms[lit[set].channels == 3], {count, 1, 1},
-        DepositConstants{lit[set].planes, ofBeams + first * sizeof(Beam), count, float(lit[set].textureSize)},
-        {{"seenDepths", own.depths}, {"seenNormals", own.normals}, {"textures", own.textures}});
+    commands.dispatch(depositPrograms_[lit_[set].channels == 3], {count, 1, 1},
+                      DepositConstants{lit_[set].planes, ofBeams + first * sizeof(Beam), count,
+                                       float(lit_[set].textureSize)},
+                      {{"seenDepths", own.depths}, {"seenNormals", own.normals}, {"textures", own.textures}});
   }
 }
 
 void PlaneTechnique::record(gpu::CommandList& commands, GpuScene& gpuScene) {
-  if (lit.empty()) return;
-  commands.pass(kind.viewPass, [&] {
-    commands.copy(beamUpload, beams, beamBytes);
-    for (std::size_t set = 0; set < lit.size(); ++set) {
-      commands.clear(images[set].textures, vec4(0));
+  if (lit_.empty()) return;
+  commands.pass(kind_.viewPass, [&] {
+    commands.copy(beamUpload_, beams_, beamBytes_);
+    for (std::size_t set = 0; set < lit_.size(); ++set) {
+      commands.clear(images_[set].textures, vec4(0));
       drawReceivers(commands, gpuScene, set);
     }
   });
-  commands.pass(kind.texturesPass, [&] {
-    VkDeviceAddress ofBeams = beams.address();
-    for (std::size_t set = 0; set < lit.size(); ++set) {
+  commands.pass(kind_.texturesPass, [&] {
+    VkDeviceAddress ofBeams = beams_.address();
+    for (std::size_t set = 0; set < lit_.size(); ++set) {
       deposit(commands, set, ofBeams);
-      ofBeams += lit[set].light.beams.size() * sizeof(Beam);
+      ofBeams += lit_[set].light.beams.size() * sizeof(Beam);
     }
   });
 }
@@ -264,13 +264,13 @@ void PlaneTechnique::record(gpu::CommandList& commands, GpuScene& gpuScene) {
 void PlaneTechnique::shade(gpu::CommandList& commands, const ReceiverPoints& points,
                            const gpu::Image& causticsLux) {
   drawCaustics(commands, points, causticsLux, [&] {
-    for (std::size_t set = 0; set < lit.size(); ++set)
-      commands.draw(shadePrograms[lit[set].channels == 3], 3, 1,
-                    ShadeConstants{lit[set].planes, float(lit[set].textureSize)},
+    for (std::size_t set = 0; set < lit_.size(); ++set)
+      commands.draw(shadePrograms_[lit_[set].channels == 3], 3, 1,
+                    ShadeConstants{lit_[set].planes, float(lit_[set].textureSize)},
                     {{"receiverPosition", *points.position},
                      {"receiverNormal", *points.normal},
-                     {"seenDepths", images[set].depths, texelSampler},
-                     {"textures", images[set].textures, texelSampler}});
+                     {"seenDepths", images_[set].depths, texelSampler_},
+                     {"textures", images_[set].textures, texelSampler_}});
   });
 }
 

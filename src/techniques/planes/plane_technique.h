@@ -1,5 +1,5 @@
-// Caustics by way of textures on virtual planes around the receivers, which are lit by looking them up there.
-// Techniques of this kind differ in how the planes stand.
+// Techniques with virtual planes: caustics are drawn into textures on planes around the receivers, and
+// receivers look them up there. These techniques differ in where the planes stand.
 #pragma once
 
 #include <array>
@@ -15,16 +15,17 @@
 
 namespace nephroid {
 
-// How one of them differs from another.
+// The differences between these techniques.
 struct PlaneTechniqueKind {
   TechniqueTraits traits;
-  // As many planes as are asked for, of `textureSize` texels along each side, for one portion of the light
+  // Plans `planes` planes with `textureSize` texels along each side, for one portion of the light
   // (lightThroughCasters).
   PlaneSet (*plan)(const Scene& scene, const LightPortion& portion, std::span<const ReceiverBox> boxes,
                    uint32_t planes, uint32_t textureSize);
   uint32_t planes;
-  // The light goes along the planes' axis, give or take, so that the virtual camera sees the receivers that
-  // it meets; or else any way, and what it meets may be hidden.
+  // Whether the light goes about along the planes' axis, so that the virtual camera sees the receivers that
+  // the light meets. Otherwise light goes in any direction, and may meet receivers that the camera does not
+  // see.
   bool goesAlongAxis;
   const char* viewPass;      // name of the pass that draws what the virtual camera sees
   const char* texturesPass;  // name of the pass that fills the textures
@@ -34,7 +35,7 @@ class PlaneTechnique final : public TechniqueBase {
  public:
   PlaneTechnique(const TechniqueContext& context, const PlaneTechniqueKind& kind);
 
-  TechniqueTraits traits() const override { return kind.traits; }
+  TechniqueTraits traits() const override { return kind_.traits; }
   void update(GpuScene& gpuScene) override;
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
   std::vector<Lattice> lattices() const override;
@@ -48,10 +49,10 @@ class PlaneTechnique final : public TechniqueBase {
     LightPortion light;
     PlaneSet planes{};
     uint32_t textureSize = 0;
-    uint32_t channels = 3;  // of the textures: one where all beams have the same colour
+    uint32_t channels = 3;  // of the textures: one where all beams have the same color
   };
   struct PlaneImages {
-    // What the virtual camera sees, a layer a window.
+    // What the virtual camera sees, one layer for each window.
     gpu::Image normals;   // as receiver_normal.glsl.h packs them
     gpu::Image depths;    // 0 at nearestDepth and 1 at farthestDepth
     gpu::Image textures;  // units of flux, layers as textureIndex has them
@@ -63,25 +64,25 @@ class PlaneTechnique final : public TechniqueBase {
   void drawReceivers(gpu::CommandList& commands, const GpuScene& gpuScene, std::size_t set);
   void deposit(gpu::CommandList& commands, std::size_t set, VkDeviceAddress ofBeams);
 
-  gpu::Device& device;
-  const TransportSettings transportSettings;
-  const BeamDivision division;
-  const PlaneSettings settings;
-  const PlaneTechniqueKind kind;
-  Stats& stats;
-  SceneTransport& transport;
-  const Casters casters;
-  const TransportSource& source;
+  gpu::Device& device_;
+  const TransportSettings transportSettings_;
+  const BeamDivision division_;
+  const PlaneSettings settings_;
+  const PlaneTechniqueKind kind_;
+  Stats& stats_;
+  SceneTransport& transport_;
+  const Casters casters_;
+  const TransportSource& source_;
 
-  gpu::Program receiversProgram;
-  std::array<gpu::Program, 2> depositPrograms, shadePrograms;  // one channel, three channels
-  gpu::Sampler texelSampler;
+  gpu::Program receiversProgram_;
+  std::array<gpu::Program, 2> depositPrograms_, shadePrograms_;  // one channel, three channels
+  gpu::Sampler texelSampler_;
 
   // Of the frame being made.
-  std::vector<LitPlanes> lit;
-  std::vector<PlaneImages> images;  // one for each of them
-  VkDeviceSize beamBytes = 0;
-  gpu::Buffer beamUpload, beams;
+  std::vector<LitPlanes> lit_;
+  std::vector<PlaneImages> images_;  // one for each of them
+  VkDeviceSize beamBytes_ = 0;
+  gpu::Buffer beamUpload_, beams_;
 };
 
 }  // namespace nephroid

@@ -1,6 +1,6 @@
-// A receiver's normal in one word: octahedral (Cigolle et al. 2014), of the half of directions that face the
-// light alone. In the virtual camera's frame: along axisU, along axisV, and against axisW. A word of zero is
-// a surface across axisW.
+// A receiver's normal in one word, by the octahedral map (Cigolle et al. 2014) of the half sphere that faces
+// the light. In the virtual camera's frame: along axisU, along axisV, and against axisW. Zero is a surface
+// perpendicular to axisW.
 
 uint packedNormal(vec3 normal) {
   return packSnorm2x16(normal.xy / (abs(normal.x) + abs(normal.y) + normal.z));

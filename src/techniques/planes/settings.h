@@ -7,9 +7,9 @@
 
 namespace nephroid {
 
-// How a receiver between virtual planes is lit. surface: planes bend onto the receivers, so that light is
-// left where it arrives. blend: from the flat planes before and behind it, as Iwasaki 2005b does; it
-// converges as planes are added.
+// How receivers between virtual planes are lit. surface: planes bend onto the receivers, so that light is
+// stored where it arrives. blend: by interpolation between the flat planes before and behind, as in Iwasaki
+// 2005b; the result converges as planes are added.
 enum class Interpolation { surface, blend };
 
 inline constexpr std::array<const char*, 2> kInterpolationNames{"surface", "blend"};
@@ -24,8 +24,9 @@ struct PlaneSettings {
 };
 
 inline constexpr Setting kPlaneSettings[] = {
-    choiceSetting<&PlaneSettings::interpolation>(
-        "interpolation", "Virtual planes that bend onto the receivers, or flat ones that receivers blend"),
+    choiceSetting<&PlaneSettings::interpolation>("interpolation",
+                                                 "surface: virtual planes that bend onto the receivers; "
+                                                 "blend: flat planes, between which receivers interpolate"),
     wholeSetting<&PlaneSettings::textureSize>("texture-size", 16, 8192,
                                               "Texels along each side of a virtual plane"),
 };

@@ -87,11 +87,11 @@ void main() {
   const vec3 normal = imageLoad(receiverNormal, pixel).xyz;
   const float cosine = -dot(normal, set.axisW);
   if (cosine <= 0) return;
-  // A texel's own slope, and half a texel of its neighbour's, may part a point from what the virtual camera
+  // A texel's own slope, and half a texel of its neighbor's, may part a point from what the virtual camera
   // saw.
   const float slope = sqrt(max(1 - cosine * cosine, 0)) / max(cosine, 0.05);
   const float depthRange = set.farthestDepth - set.nearestDepth;
-  const float tolerance = 2.0 * slope / set.windows[window].texelsPerMetre + 1e-4 * depthRange;
+  const float tolerance = 2.0 * slope / set.windows[window].texelsPerMeter + 1e-4 * depthRange;
   const float nearestSeen = (depth - tolerance - set.nearestDepth) / depthRange;
   // 1 where the virtual camera sees nothing.
   const vec4 seen = textureGather(seenDepths, vec3((corner + 1) / constants.textureSize, window));
@@ -99,9 +99,9 @@ void main() {
       bilinearWeights(place - corner) * vec4(greaterThanEqual(seen, vec4(min(nearestSeen, 1))));
   vec3 sum = coarse * dot(weights, vec4(1));
   for (uint c = 0; c < 3; ++c) sum[c] += dot(weights, units.channel[min(c, kChannels - 1)]);
-  const float texels = set.windows[window].texelsPerMetre;
-  // What follows the receivers was left by flux; a texel's square metres on the surface are those across the
+  const float texels = set.windows[window].texelsPerMeter;
+  // What follows the receivers was left by flux; a texel's square meters on the surface are those across the
   // axis over the cosine.
   if (kFollowsReceivers != 0) sum *= cosine;
-  causticsLux = vec4(sum * set.luxMetresSquaredPerUnit * (texels * texels), 0);
+  causticsLux = vec4(sum * set.luxMetersSquaredPerUnit * (texels * texels), 0);
 }

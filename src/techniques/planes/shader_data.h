@@ -1,4 +1,4 @@
-// What the shaders of this folder are given.
+// The data of this folder's shaders.
 #ifndef NEPHROID_TECHNIQUES_PLANES_SHADER_DATA_H
 #define NEPHROID_TECHNIQUES_PLANES_SHADER_DATA_H
 
@@ -9,8 +9,8 @@
 
 SHARED_BEGIN
 
-// A footprint of more texels than this along a side goes to the coarse part where its illuminance is less
-// than this part of the mean over the inner window.
+// A footprint with more than kWideFootprint texels along a side is drawn into the coarse copy where its
+// illuminance is less than kDimFootprint times the mean of the inner window.
 SHARED_CONSTANT float kWideFootprint = 24.0f;
 SHARED_CONSTANT float kDimFootprint = 0.01f;
 
@@ -24,7 +24,7 @@ layout(buffer_reference, scalar) readonly buffer Beams {
 
 SHARED_BEGIN
 
-// The planes travel with the push constants: a software device reads those once for all threads.
+// The planes are in the push constants because a software device reads those once for all threads.
 struct DepositConstants {
   PlaneSet set;
   BUFFER_ADDRESS(Beams) beams;

@@ -1,3 +1,4 @@
+// The settings of sliced images.
 #pragma once
 
 #include "core/settings.h"
@@ -5,7 +6,7 @@
 namespace nephroid {
 
 struct SlicedImageSettings {
-  uint32_t slices = 0;  // sample planes across the view; 0: as many as the receivers' depth asks for
+  uint32_t slices = 0;  // sample planes across the view; 0: a number that fits the receivers' depth
   bool operator==(const SlicedImageSettings&) const = default;
 };
 

@@ -29,7 +29,7 @@ vec3 meanViewingDirection(const Camera& camera, std::span<const Arrival> arrival
 }
 
 uint32_t automaticSlices(const PlaneSet& pair) {
-  const float width = pair.windows[0].size / pair.windows[0].texelsPerMetre;
+  const float width = pair.windows[0].size / pair.windows[0].texelsPerMeter;
   const float slices = std::ceil(pair.depthStep / (kThicknessOverWidth * width));
   return std::bit_ceil(uint32_t(std::clamp(slices, 1.0f, kMostAutomaticSlices)));
 }
@@ -55,8 +55,8 @@ constexpr TechniqueTraits kTraits{.followsCamera = true, .usesBeams = true};
 
 constexpr Setting kSettings[] = {
     wholeSetting<&SlicedImageSettings::slices>("slices", 0, 256,
-                                               "Sample planes across the view that caustics are drawn on; 0: "
-                                               "as many as the receivers' depth asks for"),
+                                               "Number of sample planes across the view, on which caustics "
+                                               "are drawn; 0: a number that fits the receivers' depth"),
 };
 constexpr SettingsOwner kOwners[] = {settingsOwner<SlicedImageSettings>("sliced-images", kSettings),
                                      kPlaneSettingsOwner};

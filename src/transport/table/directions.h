@@ -1,8 +1,9 @@
 // The sampled directions of a light transport table (Iwasaki 2005, eq. 3), once for C++ and GLSL.
 //
-// Directions are local to a vertex: (x, y, z) along its tangent, binormal and normal, and point the way the
-// light travels, so z < 0 where light meets the outside. Direction 0 is the pole (straight along the normal);
-// then rings from the pole outward, `azimuths` directions each, beginning at the tangent.
+// Directions are local to a vertex: (x, y, z) along its tangent, binormal and normal. They point in the
+// direction in which the light travels, so z < 0 where light meets the outside. Direction 0 is the pole
+// (straight along the normal); then rings from the pole outward, `azimuths` directions each, beginning at the
+// tangent.
 #ifndef NEPHROID_TRANSPORT_TABLE_DIRECTIONS_H
 #define NEPHROID_TRANSPORT_TABLE_DIRECTIONS_H
 
@@ -16,10 +17,11 @@ using glm::cos;
 using glm::sin;
 #endif
 
-// Rings are equally spaced in angle up to this one; light beyond it uses its rays, with its own Fresnel
-// transmittance on entry. At 90 degrees nothing enters; much nearer to it, rays through a ball's facets are
-// lost where those through the ball are not. Of 84.4, 86, 87, 88, 89 and 89.5 degrees, those up to 87 lost no
-// rays of a ball for that; the total flux differed by 0.2 % at most.
+// Rings have equal steps in angle up to this angle. Light beyond it uses the rays of the last ring, with its
+// own Fresnel transmittance on entry. At 90 degrees no light enters. Very near to 90 degrees, rays through
+// the flat triangles of a ball are lost that would not be lost in the ball itself. In a test with 84.4, 86,
+// 87, 88, 89 and 89.5 degrees, no rays were lost for this reason up to 87 degrees; the total flux differed by
+// at most 0.2 %.
 SHARED_CONSTANT float kOutermostRing = 1.5184364f;  // radians: 87 degrees from the normal
 SHARED_CONSTANT float kTwoPi = 6.2831853f;
 
@@ -45,7 +47,7 @@ SHARED_FUNCTION float ringAngle(uint ring, uint rings) {
   return kOutermostRing * float(ring) / float(rings);
 }
 
-// Eq. 3 in the vertex's frame; `index` < 1 + rings * azimuths.
+// Equation 3, in the vertex's frame. `index` < 1 + rings * azimuths.
 SHARED_FUNCTION vec3 sampledDirection(uint index, uint rings, uint azimuths) {
   if (index == 0u) return vec3(0.0f, 0.0f, -1.0f);
   float elevation = ringAngle((index - 1u) / azimuths + 1u, rings);

@@ -33,7 +33,7 @@ uint32_t pathCode(const OutgoingRay& ray) {
   return signature | (ray.flags & kRayOccluded ? kCodeOccluded : 0);
 }
 
-// A table under construction. Path lengths wait in metres until the longest is known.
+// A table under construction. Path lengths wait in meters until the longest is known.
 struct Filling {
   TableLayout layout;
   uint32_t directions;
@@ -101,7 +101,7 @@ void packPathLengths(const Filling& filling, uint32_t row) {
   }
 }
 
-// Returns the longest path inside, in metres.
+// Returns the longest path inside, in meters.
 float traceAll(const Filling& filling, const Mesh& mesh, const VertexTracer& trace, Progress& progress) {
   const TableLayout& layout = filling.layout;
   std::vector<vec3> local(filling.directions);

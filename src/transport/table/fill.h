@@ -1,4 +1,4 @@
-// Packs rays, wherever they come from, into a light transport table.
+// Packs rays from any tracer into a light transport table.
 #pragma once
 
 #include <functional>
@@ -8,9 +8,9 @@
 
 namespace nephroid {
 
-// Answers, for light that meets `vertex` along `directions` (unit, mesh space), the rays that leave the mesh,
-// in mesh space, with the transmittance of all boundaries, the entry included, in its first channel. Called
-// from many threads.
+// Computes the rays that leave the mesh, for light that meets `vertex` along each of `directions` (unit). All
+// in mesh space. The first channel of a ray's transmittance is that of all boundaries, with the entry. Called
+// from several threads.
 using VertexTracer = std::function<void(uint32_t vertex, float ior, std::span<const vec3> directions,
                                         std::span<OutgoingRay> rays)>;
 

@@ -1,7 +1,7 @@
-// Looking up a light transport table (Iwasaki 2005, section 5.1), once for C++ and GLSL.
+// Looks up a light transport table (Iwasaki 2005, section 5.1). Written once for C++ and GLSL.
 //
-// A shader includes entry.h, says `#define TableView TableLayout`, defines `uint tableWord(TableView table,
-// uint index)` over the buffer that holds the table's words, and includes this.
+// A shader includes entry.h, contains `#define TableView TableLayout`, defines `uint tableWord(TableView
+// table, uint index)`, which reads the buffer of the table's words, and then includes this file.
 #ifndef NEPHROID_TRANSPORT_TABLE_LOOKUP_H
 #define NEPHROID_TRANSPORT_TABLE_LOOKUP_H
 
@@ -45,8 +45,7 @@ SHARED_FUNCTION TableEntry tableEntry(TableView table, uint band, uint vertex, u
   return entry;
 }
 
-// Between unit vectors, along the great circle at constant speed: what interpolating the quaternions that
-// turn onto them gives.
+// Interpolates between unit vectors along the great circle at constant speed (as for quaternions).
 SHARED_FUNCTION vec3 slerpDirection(vec3 a, vec3 b, float t) {
   float sine = length(cross(a, b));
   float cosine = dot(a, b);
@@ -59,7 +58,7 @@ SHARED_FUNCTION float shareOf(float part, float rest) {
   return part > 0.0f ? part / (part + rest) : 0.0f;
 }
 
-// The way through the caster that most of the weight took.
+// The path code with the largest sum of weights.
 SHARED_FUNCTION uint prevailingCode(uvec4 code, vec4 weight) {
   uint prevailing = code[0];
   float most = -1.0f;
@@ -75,11 +74,12 @@ SHARED_FUNCTION uint prevailingCode(uvec4 code, vec4 weight) {
 }
 
 // The ray that leaves the caster, in mesh space, for light that meets `vertex` along `direction` (unit, in
-// the vertex's frame). Position, transmittance and path length are bilinear and directions slerped, among
-// those of the four sampled rays that took the prevailing way: a mean over different ways would be a ray that
-// exists nowhere. Where that way carries no light, neither does the ray; so edges stay sharp and the flux is
-// right on average. The transmittance is Fresnel alone, the same in all channels: what the path inside
-// absorbs is the caller's, so that a changed colour needs no new table.
+// the vertex's frame). It is interpolated between those of the four sampled rays that have the prevailing
+// path code, because a mean over different paths would be a ray that does not exist. Position, transmittance
+// and path length are bilinear; directions are interpolated on the sphere. Where the prevailing path carries
+// no light, the result carries none. So edges stay sharp, and the flux is right on average. The transmittance
+// is only Fresnel's, the same in all channels. The caller adds the absorption of the path, so that a changed
+// color needs no new table.
 SHARED_FUNCTION OutgoingRay lookUpRay(TableView table, uint band, uint vertex, vec3 direction) {
   DirectionCell cell = cellAround(direction, table.rings, table.azimuths);
   TableEntry entry[4];

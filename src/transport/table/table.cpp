@@ -68,7 +68,7 @@ TableKey tableKey(const Mesh& mesh, vec3 ior, const TableSettings& settings) {
 }
 
 std::span<const uint32_t> TransportTable::words() const {
-  return {itsView.words, static_cast<std::size_t>(itsKey.words())};
+  return {itsView_.words, static_cast<std::size_t>(itsKey_.words())};
 }
 
 }  // namespace nephroid

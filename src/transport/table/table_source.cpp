@@ -42,31 +42,31 @@ bool hasTable(const Scene& scene, const Object& object) {
 
 TableSource::TableSource(const Scene& sceneOfTables, std::vector<std::optional<TransportTable>> tableOfObject,
                          const TracedSource& tracedSource)
-    : scene(sceneOfTables),
-      tables(std::move(tableOfObject)),
-      traced(tracedSource),
-      mayReceiversHide(mayHide(sceneOfTables)) {
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    const Object& object = scene.objects[i];
-    const bool isMirror = scene.materialOf(object).type == MaterialType::mirror;
-    isRefined.push_back(!tables[i] && (!isMirror || scene.meshOf(object).hasEdges()));
+    : scene_(sceneOfTables),
+      tables_(std::move(tableOfObject)),
+      traced_(tracedSource),
+      mayReceiversHide_(mayHide(sceneOfTables)) {
+  for (std::size_t i = 0; i < tables_.size(); ++i) {
+    const Object& object = scene_.objects[i];
+    const bool isMirror = scene_.materialOf(object).type == MaterialType::mirror;
+    isRefined_.push_back(!tables_[i] && (!isMirror || scene_.meshOf(object).hasEdges()));
   }
 }
 
-// A mirror's vertices tell most of what it does, as a table's do.
+// The rays at a mirror's vertices represent its light well, as those of a table do.
 bool TableSource::refines(const TransportQuery& query) const {
-  return isRefined[query.object];
+  return isRefined_[query.object];
 }
 
 bool TableSource::isTabulated(const TransportQuery& query) const {
-  return tables[query.object] && (query.paths == Paths::transmission || query.isSight) &&
+  return tables_[query.object] && (query.paths == Paths::transmission || query.isSight) &&
          query.reflections == 0 && query.media.size == 0;
 }
 
 void TableSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const {
-  if (!isTabulated(query)) return traced.vertexRays(query, rays);
-  const Object& object = scene.objects[query.object];
-  tableRays(*tables[query.object], scene.meshOf(object), object.placement, scene.materialOf(object),
+  if (!isTabulated(query)) return traced_.vertexRays(query, rays);
+  const Object& object = scene_.objects[query.object];
+  tableRays(*tables_[query.object], scene_.meshOf(object), object.placement, scene_.materialOf(object),
             query.emitter, query.channel, rays);
   if (query.isSight)
     completeSight(query, rays);
@@ -75,18 +75,18 @@ void TableSource::vertexRays(const TransportQuery& query, std::span<OutgoingRay>
 }
 
 void TableSource::meetScene(const TransportQuery& query, std::span<OutgoingRay> rays) const {
-  const bool mayBeShaded = traced.mayBeShaded(query);
-  bool mayGoOn = mayReceiversHide;
-  for (uint32_t i = 0; i < scene.objects.size(); ++i)
-    mayGoOn |= i != query.object && scene.isCaster(scene.objects[i]);
+  const bool mayBeShaded = traced_.mayBeShaded(query);
+  bool mayGoOn = mayReceiversHide_;
+  for (uint32_t i = 0; i < scene_.objects.size(); ++i)
+    mayGoOn |= i != query.object && scene_.isCaster(scene_.objects[i]);
   if (!mayBeShaded && !mayGoOn) return;
   oneapi::tbb::parallel_for(IndexRange(0, rays.size(), 64), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       if (rays[i].flags != 0) continue;
-      if (mayBeShaded && !traced.isVertexLit(query, uint32_t(i)))
+      if (mayBeShaded && !traced_.isVertexLit(query, uint32_t(i)))
         rays[i].flags |= kRayOccluded;
       else if (mayGoOn)
-        traced.goOn(query, rays[i]);
+        traced_.goOn(query, rays[i]);
     }
   });
 }
@@ -96,14 +96,14 @@ void TableSource::completeSight(const TransportQuery& query, std::span<OutgoingR
   oneapi::tbb::parallel_for(IndexRange(0, rays.size(), 64), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
       if (rays[i].flags == kRayLost)
-        rays[i] = traced.vertexRay(query, uint32_t(i), 0);
+        rays[i] = traced_.vertexRay(query, uint32_t(i), 0);
       else if (rays[i].flags == 0)
-        traced.goOn(query, rays[i]);
+        traced_.goOn(query, rays[i]);
   });
 }
 
 OutgoingRay TableSource::rayAt(const TransportQuery& query, const SurfacePoint& point) const {
-  return traced.rayAt(query, point);
+  return traced_.rayAt(query, point);
 }
 
 }  // namespace nephroid

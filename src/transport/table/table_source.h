@@ -10,17 +10,18 @@
 
 namespace nephroid {
 
-// Whether light through the object can be tabulated: it is of a clear material with a volume that no other
-// object stands in, neither water, whose surface moves, nor faceted like a box or a cut gem.
+// Whether the object can have a light transport table. Its material must be clear glass with a volume, and no
+// other object may be inside. It must not be water, whose surface moves, and not faceted like a box or a cut
+// gem.
 bool hasTable(const Scene& scene, const Object& object);
 
-// Rays looked up at the vertices of casters that have a table, wherever they stand. A table knows its caster
-// alone: what may stand before it, and other casters behind it, are looked for with a ray each, and so is the
-// reach where receivers may hide one another. What no table holds (mirrors, reflection, a light inside a
-// medium; sight that is totally reflected) is traced.
+// The source "table": looks up the rays at the vertices of casters that have a table. A table contains only
+// its caster. So other objects before the caster, and other casters behind it, are found with one ray each,
+// and so is the reach, where receivers may hide one another. Everything that no table contains is traced:
+// mirrors, reflection, a light inside a medium, and view rays that are totally reflected.
 class TableSource : public TransportSource {
  public:
-  // `tables` has one for each object of the scene, or none where the object is to be traced. Scene and
+  // `tables`: one element for each object of the scene; an empty one where the object is traced. Scene and
   // `traced` must outlive this.
   TableSource(const Scene& scene, std::vector<std::optional<TransportTable>> tables,
               const TracedSource& traced);
@@ -34,11 +35,11 @@ class TableSource : public TransportSource {
   void meetScene(const TransportQuery& query, std::span<OutgoingRay> rays) const;
   void completeSight(const TransportQuery& query, std::span<OutgoingRay> rays) const;
 
-  const Scene& scene;
-  std::vector<std::optional<TransportTable>> tables;
-  std::vector<bool> isRefined;  // of objects
-  const TracedSource& traced;
-  const bool mayReceiversHide;
+  const Scene& scene_;
+  std::vector<std::optional<TransportTable>> tables_;
+  std::vector<bool> isRefined_;  // of objects
+  const TracedSource& traced_;
+  const bool mayReceiversHide_;
 };
 
 }  // namespace nephroid

@@ -1,3 +1,4 @@
+// The transport source that traces rays now, without a table.
 #pragma once
 
 #include <utility>
@@ -9,9 +10,9 @@
 
 namespace nephroid {
 
-// Outgoing rays traced now, for this light, through the whole scene as it stands: the baseline of Iwasaki
-// 2005 ("without the table"), the measure of every table, and what deforming casters need. Follows light from
-// caster to caster.
+// The source "traced": traces outgoing rays through the whole present scene, from caster to caster. Iwasaki
+// 2005 compares with it ("without the table"); tables are tested against it, and casters that change their
+// shape need it.
 class TracedSource : public TransportSource {
  public:
   // Both must outlive this.
@@ -24,9 +25,9 @@ class TracedSource : public TransportSource {
   // The ray at one vertex of the caster's mesh.
   OutgoingRay vertexRay(const TransportQuery& query, uint32_t vertex, uint32_t patch) const;
 
-  // For sources that know the caster alone: whether nothing stands between the emitter and a vertex of the
-  // caster's mesh; whether another object may do so; and a ray's way from where it left the caster by
-  // whatever it meets next.
+  // For sources that know only the caster. isVertexLit: whether nothing stands between the emitter and a
+  // vertex. mayBeShaded: whether another object may stand between. goOn: follows a ray that has left the
+  // caster through the other objects.
   bool isVertexLit(const TransportQuery& query, uint32_t vertex) const;
   bool mayBeShaded(const TransportQuery& query) const;
   void goOn(const TransportQuery& query, OutgoingRay& ray) const;
@@ -37,9 +38,9 @@ class TracedSource : public TransportSource {
  private:
   bool isLit(const TransportQuery& query, const SurfacePoint& point, vec3 direction) const;
 
-  const Scene& scene;
-  Follower follower;
-  std::vector<Box> boxes;  // of the meshes, in their own space
+  const Scene& scene_;
+  Follower follower_;
+  std::vector<Box> boxes_;  // of the meshes, in their own space
 };
 
 }  // namespace nephroid

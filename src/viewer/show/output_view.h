@@ -1,4 +1,4 @@
-// The images that passes leave behind, as pictures.
+// Shows the output images of passes as pictures.
 #pragma once
 
 #include "gpu/program.h"
@@ -11,8 +11,8 @@ class OutputView {
   // The device outlives it.
   explicit OutputView(gpu::Device& device);
 
-  // A picture (rgba8) of this size of all layers of the output's image, side by side. It lasts until the next
-  // one.
+  // Makes a picture (rgba8, `size` pixels) of all layers of the image, side by side. It is valid until the
+  // next call.
   const gpu::Image& show(const PassOutput& output, uvec2 size);
 
  private:

@@ -1,4 +1,4 @@
-// Any image as a picture: its layers side by side, each as large as fits. A shader defines `vec4
+// Shows an image as a picture: its layers are side by side, each as large as possible. A shader defines `vec4
 // texelOf(ivec2 texel, int layer)`, includes this, and calls `shown` for its pixel.
 #include "render/tone_mapping.h"
 

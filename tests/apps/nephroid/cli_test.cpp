@@ -101,7 +101,7 @@ TEST_F(SceneCommand, MeasureWritesWhatThePointLightSends) {
   EXPECT_EQ(result.errors, "");
   const Image image = readExr(folder / "floor.exr");
   ASSERT_EQ(image.width, 8u);
-  // I cos / d^2 in the middle of the four texels around the centre, each 1/16 m from it in x and z.
+  // I cos / d^2 in the middle of the four texels around the center, each 1/16 m from it in x and z.
   const double squared = 4 + 2.0 / 256;
   EXPECT_NEAR((*image.find("direct.R"))[3 * 8 + 3], 40 * 2 / std::pow(squared, 1.5), 0.01);
   EXPECT_EQ((*image.find("caustics.R"))[0], 0);

@@ -1,4 +1,4 @@
-// The window goes on: without its device, over many frames, minimised, while it is recorded.
+// The window goes on: without its device, over many frames, minimized, while it is recorded.
 #include "apps/viewer/view_steps.h"
 
 #include <fstream>
@@ -127,8 +127,8 @@ TEST_F(ViewSteps, FramesLeaveNothingBehind) {
   EXPECT_LT(double(hosts.back()), 1.1 * double(hosts[hosts.size() / 2]));
 }
 
-TEST_F(ViewSteps, GoesOnWhereItWasWhenItIsNoLongerMinimised) {
-  if (!isInstalled("twm")) GTEST_SKIP() << "there is no window manager that minimises windows (package twm)";
+TEST_F(ViewSteps, GoesOnWhereItWasWhenItIsNoLongerMinimized) {
+  if (!isInstalled("twm")) GTEST_SKIP() << "there is no window manager that minimizes windows (package twm)";
   const fs::path settings =
       written("twmrc",
               "RandomPlacement\nTitleFont \"fixed\"\nMenuFont \"fixed\"\nIconFont \"fixed\"\n"

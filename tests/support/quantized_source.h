@@ -8,14 +8,14 @@
 
 namespace nephroid {
 
-inline float quantised(float value) {
+inline float quantized(float value) {
   return std::round(glm::clamp(value, 0.0f, 1.0f) * 65535.0f) / 65535.0f;
 }
 
 // Traced rays at the vertices, kept in as many bits as a table keeps them in.
-class QuantisedSource : public TransportSource {
+class QuantizedSource : public TransportSource {
  public:
-  QuantisedSource(const Scene& sceneOf, const TracedSource& tracedOf, bool isExactOf)
+  QuantizedSource(const Scene& sceneOf, const TracedSource& tracedOf, bool isExactOf)
       : scene(sceneOf), traced(tracedOf), isExact(isExactOf) {}
 
   void vertexRays(const TransportQuery& query, std::span<OutgoingRay> rays) const override {
@@ -25,12 +25,12 @@ class QuantisedSource : public TransportSource {
     const auto [low, high] = boundingBox(scene.meshOf(object));
     for (OutgoingRay& ray : rays) {
       vec3 place = (object.placement.inversePoint(ray.position) - low) / (high - low);
-      for (int i = 0; i < 3; ++i) place[i] = quantised(place[i]);
+      for (int i = 0; i < 3; ++i) place[i] = quantized(place[i]);
       ray.position = object.placement.point(low + place * (high - low));
       const vec2 square = octahedralFromDirection(object.placement.inverseDirection(ray.direction));
       ray.direction =
-          object.placement.direction(directionFromOctahedral({quantised(square.x), quantised(square.y)}));
-      ray.transmittance = vec3(quantised(ray.transmittance.x));
+          object.placement.direction(directionFromOctahedral({quantized(square.x), quantized(square.y)}));
+      ray.transmittance = vec3(quantized(ray.transmittance.x));
     }
   }
   bool refines(const TransportQuery&) const override { return false; }
