@@ -34,7 +34,7 @@ number() { grep -A3 "\"$2\"" "$1" | grep -o '[0-9.]*[0-9]\(e-[0-9]*\)\?,\?$' | h
 
 for scene in "${scenes[@]}"; do
   echo "$scene" >&2
-  "$program" compare "scenes/$scene.toml" -o "$work/$scene" --techniques illumination-textures --paths transmission \
+  "$program" compare "scenes/$scene.toml" -o "$work/$scene" --techniques illumination-textures --source table --paths transmission \
     --size "$size" --seconds "$seconds" --quiet >/dev/null
   cp "$work/$scene/illumination-textures.png" "docs/gallery/$scene.png"
   cp "$work/$scene/reference.png" "docs/gallery/$scene.reference.png"

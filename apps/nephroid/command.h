@@ -77,6 +77,8 @@ std::optional<uvec2> pairOf(const std::string& text, char separator);
 
 // The reference is not a technique, but users choose it with --technique too.
 inline constexpr const char* kReferenceName = "reference";
+// What else the technique is called that is used where none is named.
+inline constexpr const char* kAutomaticName = "automatic";
 bool isReference(const PictureSettings& settings);
 
 // The names of all techniques.

@@ -62,9 +62,17 @@ TechniqueResult readTechnique(const CompareJob& job, const std::string& techniqu
   const PictureSettings settings = settingsOf(job.options, technique);
   TechniqueResult result{{}, statsOf(settings, job.device), imageAttributes(settings, "lux")};
   const Stopwatch preparing;
-  TechniqueMeter meter(job.device, job.scene, sensor, settings.technique, job.progress, result.stats);
+  const TechniqueInfo& info = techniqueNamed(technique);
+  std::optional<TechniqueMeter> meter;
+  if (!info.measure)
+    meter.emplace(job.device, job.scene, sensor, settings.technique, job.progress, result.stats);
   result.stats.prepareMilliseconds = preparing.milliseconds();
-  const SensorLayer caustics = readRepeatedly([&] { return meter.read(); }, job.options.repeat, result.stats);
+  const auto read = [&] {
+    return meter
+               ? meter->read()
+               : info.measure({job.scene, job.rays, sensor, settings.technique}, job.progress, result.stats);
+  };
+  const SensorLayer caustics = readRepeatedly(read, job.options.repeat, result.stats);
   result.stats.memoryBytes = job.device.memoryBytes();
   result.image = sensorImage(job.scene, sensor, direct, caustics);
   return result;
@@ -74,9 +82,10 @@ ReferenceResult refineReference(const CompareJob& job, Estimate& estimate, const
                                 const std::string& sensor) {
   const CompareOptions& options = job.options;
   const Stopwatch watch;
-  if (!refine(estimate, stopRuleOf(options.reference.choices), job.progress)) throw Interrupted();
-  const ReferenceJob written{options, options.reference, settings, job.scene, sensor.empty() ? "nit" : "lux",
-                             sensor};
+  const StopRule stop = stopRule(options.reference, options.picture);
+  if (!refine(estimate, stop, job.progress)) throw Interrupted();
+  const ReferenceJob written{
+      options, options.reference, settings, stop, job.scene, sensor.empty() ? "nit" : "lux", sensor};
   return {estimate.image(), estimate.passes(), estimate.noise(), watch.milliseconds() / 1000,
           referenceAttributes(estimate, written)};
 }
@@ -145,11 +154,9 @@ void runCompare(const CompareOptions& options) {
   writeReport(options.output, comparison);
 }
 
-// All but those that choose among others.
 std::vector<std::string> comparedTechniques() {
   std::vector<std::string> names;
-  for (const TechniqueInfo* info : techniques())
-    if (info->parts.empty()) names.emplace_back(info->name);
+  for (const TechniqueInfo* info : techniques()) names.emplace_back(info->name);
   return names;
 }
 

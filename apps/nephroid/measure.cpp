@@ -78,7 +78,9 @@ void measureReference(const MeasureOptions& options) {
   const ReferenceSettings settings = referenceSettings(options.reference, options.picture, sensor.resolution);
   ReferenceSensor counter(scene, rays, sensor, settings);
   stats.prepareMilliseconds = preparing.milliseconds();
-  refineToFile(counter, {options, options.reference, settings, scene, "lux", sensor.name}, progress, stats);
+  const StopRule stop = stopRule(options.reference, options.picture);
+  refineToFile(counter, {options, options.reference, settings, stop, scene, "lux", sensor.name}, progress,
+               stats);
   writeStats(options.stats, stats);
 }
 
@@ -88,9 +90,14 @@ void runMeasure(const MeasureOptions& options) {
   if (isReference(options.picture)) return measureReference(options);
   const TechniqueSettings& settings = options.picture.technique;
   const TechniqueInfo& info = techniqueNamed(settings.technique);
-  if (!info.isInSensorPlane && asksForSensorPlane(settings))
+  if (!info.isInSensorPlane && !info.measure && asksForSensorPlane(settings))
     throw InputError("--planes sensor: " + settings.technique +
                      " draws on no virtual planes across the light");
+  if (info.measure && (!settings.baked.empty() || settings.transport.source == Source::table))
+    throw InputError(
+        settings.technique +
+        " measures with rays of its own; for --source table or --baked name a technique that looks "
+        "rays up, such as --technique illumination-textures");
   Progress progress(progressDisplay(options.isQuiet));
   Stats stats;
   describeSettings(options.picture, stats);
@@ -104,6 +111,9 @@ void runMeasure(const MeasureOptions& options) {
   if (!info.traits.drawsCaustics) {
     stats.device = "host";
     caustics = [&] { return SensorLayer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0)); };
+  } else if (info.measure) {
+    stats.device = "host";
+    caustics = [&] { return info.measure({scene, rays, sensor, settings}, progress, stats); };
   } else if (info.isInSensorPlane && info.isInSensorPlane(settings)) {
     stats.device = "host";
     caustics = beamsMeter(scene, rays, sensor, settings, progress, stats);

@@ -154,13 +154,18 @@ void addSettings(CLI::App& command, std::span<const SettingsView> views, bool ta
 namespace {
 
 void addTechniqueName(CLI::App& command, TechniqueSettings& settings) {
-  const std::vector<std::string> names = techniqueList();
+  std::vector<std::string> names = techniqueList();
+  names.emplace_back(kAutomaticName);
   command
-      .add_option("--technique", settings.technique,
-                  "How caustics are made: " + joined(names) + "; `nephroid help NAME` tells more about one")
+      .add_option_function<std::string>(
+          "--technique",
+          [&settings](const std::string& name) {
+            settings.technique = name == kAutomaticName ? defaultTechnique() : name;
+          },
+          "How caustics are made: " + joined(names) + "; `nephroid help NAME` tells more about one")
       ->check(oneOf(names))
       ->type_name("NAME")
-      ->capture_default_str();
+      ->default_str(settings.technique);
 }
 
 void addBaked(CLI::App& command, TechniqueSettings& settings) {

@@ -73,6 +73,7 @@ void addReference(CLI::App& command, ReferenceOptions& options) {
   const SettingsView view{"Reference", referenceSettings(), &options.choices};
   addSettings(command, {&view, 1});
   options.paths = command.get_option("--paths");
+  options.error = command.get_option("--error");
 }
 
 void addResume(CLI::App& command, ReferenceOptions& options) {
@@ -84,6 +85,11 @@ ReferenceSettings referenceSettings(const ReferenceOptions& options, const Pictu
                                     uvec2 size) {
   const Paths paths = options.paths->count() > 0 ? picture.technique.transport.paths : Paths::all;
   return referenceSettingsOf(options.choices, paths, size);
+}
+
+StopRule stopRule(const ReferenceOptions& options, const PictureSettings& picture) {
+  const bool isAsked = options.error->count() > 0;
+  return stopRuleOf(options.choices, isAsked ? double(accuracyOf(picture.technique).error) : 0);
 }
 
 std::vector<ImageAttribute> referenceAttributes(const Estimate& estimate, const ReferenceJob& job) {
@@ -105,8 +111,7 @@ void refineToFile(Estimate& estimate, const ReferenceJob& job, Progress& progres
   if (job.options.resumes) resume(estimate, job);
   const uint32_t before = estimate.passes();
   const Stopwatch watch;
-  const bool isDone =
-      refine(estimate, stopRuleOf(job.options.choices), progress, [&] { write(estimate, job); });
+  const bool isDone = refine(estimate, job.stop, progress, [&] { write(estimate, job); });
   const uint32_t made = estimate.passes() - before;
   stats.frameMilliseconds = made > 0 ? watch.milliseconds() / made : 0;
   stats.counts.emplace_back("passes", estimate.passes());

@@ -13,7 +13,7 @@ namespace nephroid {
 struct ReferenceOptions {
   ReferenceChoices choices;
   bool resumes = false;
-  const CLI::Option* paths = nullptr;  // the option --paths; tells whether the user gave it
+  const CLI::Option *paths = nullptr, *error = nullptr;  // the options; tell whether the user gave them
 };
 
 // Adds the settings of the reference. To be called after addTechnique.
@@ -25,11 +25,15 @@ void addResume(CLI::App& command, ReferenceOptions& options);
 ReferenceSettings referenceSettings(const ReferenceOptions& options, const PictureSettings& picture,
                                     uvec2 size);
 
+// When the reference stops: also at the error that the user gave with --error.
+StopRule stopRule(const ReferenceOptions& options, const PictureSettings& picture);
+
 // What refineToFile needs to know about its output file.
 struct ReferenceJob {
   const CommonOptions& common;
   const ReferenceOptions& options;
   const ReferenceSettings& settings;
+  const StopRule& stop;
   const Scene& scene;
   std::string unit;    // "nit", "lux"
   std::string sensor;  // its name; empty for an image

@@ -73,6 +73,7 @@ void renderReference(const RenderOptions& options, const std::vector<FrameJob>& 
   stats.technique = kReferenceName;
   stats.device = "host";
   WaveRuns waves;
+  const StopRule stop = stopRule(options.reference, options.picture);
   for (const FrameJob& job : jobs) {
     const Stopwatch preparing;
     CommonOptions common = options;
@@ -83,7 +84,7 @@ void renderReference(const RenderOptions& options, const std::vector<FrameJob>& 
     const ReferenceSettings settings = referenceSettings(options.reference, options.picture, options.size);
     ReferenceImage image(scene, rays, settings);
     stats.prepareMilliseconds += preparing.milliseconds();
-    refineToFile(image, {common, options.reference, settings, scene, "nit", ""}, progress, stats);
+    refineToFile(image, {common, options.reference, settings, stop, scene, "nit", ""}, progress, stats);
   }
   writeStats(options.stats, stats);
 }

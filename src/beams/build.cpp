@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "beams/first_cuts.h"
 #include "beams/incident_flux.h"
 #include "geometry/bounds.h"
 #include "geometry/curved_triangle.h"
@@ -16,9 +17,6 @@
 namespace nephroid {
 namespace {
 
-// Triangles longer than this part of the mesh's extent are cut before anything is judged by their corners.
-constexpr float kCoarseFraction = 1.0f / 24;
-constexpr uint32_t kMaximumForcedCuts = 7;
 constexpr std::size_t kBlock = 64;  // triangles whose beams one task makes
 // Rays of a cut triangle start this part of the way toward its middle, off edges where two surfaces meet.
 constexpr float kInset = 1e-3f, kInsetOnEdges = 5e-3f;
@@ -287,13 +285,6 @@ CasterTriangle casterTriangle(const Object& object, const Mesh& mesh, const uvec
   return {positions, normals, mesh.isCurved};
 }
 
-uint32_t forcedCutsFor(const Mesh& mesh, const uvec3& t, float extent) {
-  const vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
-  const float longest = std::max({length(b - a), length(c - b), length(a - c)});
-  const float cuts = std::ceil(std::log2(longest / (kCoarseFraction * extent)));
-  return uint32_t(glm::clamp(cuts, 0.0f, float(kMaximumForcedCuts)));
-}
-
 // Whether the cell of water that a triangle is half of has more corners in shadow than the tolerance lets
 // pass.
 bool isLostToShadow(const Water& water, const VertexRays& vertices, std::size_t triangle, float tolerance) {
@@ -332,7 +323,7 @@ BeamSet buildBeams(const Scene& scene, const TransportSource& source, const Tran
         triangle[i] = {mat3(1)[i], surface.positions[i], vertex, vertices.rays[vertex]};
       }
       Builder(scene, source, query, light, bandColor, settings, surface, vertices)
-          .add(triangle, forcedCutsFor(mesh, mesh.triangles[t], extent), parts[block]);
+          .add(triangle, firstCutsFor(mesh, mesh.triangles[t], extent), parts[block]);
     }
   });
 

@@ -23,10 +23,14 @@ std::string statsJson(const Stats& stats) {
   for (const auto& [name, count] : stats.counts) counts[name] = count;
   Json settings = Json::object();
   for (const auto& [flag, value] : stats.settings) settings[flag] = value;
-  const Json document = {{"device", stats.device},
+  const auto orNull = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  const Json document = {{"schema", "nephroid stats 2"},
+                         {"device", stats.device},
                          {"technique", stats.technique},
                          {"source", stats.source},
                          {"settings", settings},
+                         {"error", orNull(stats.error)},
+                         {"left_out", orNull(stats.leftOut)},
                          {"prepare_ms", stats.prepareMilliseconds},
                          {"frame_ms", stats.frameMilliseconds},
                          {"passes", passes},

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,13 +28,17 @@ struct Stats {
   std::vector<std::pair<std::string, uint64_t>>
       counts;                // "vertices", "beams", "rays", and others that depend on the technique
   uint64_t memoryBytes = 0;  // on the device
+  // Of a technique that works to an error that is asked for: what it claims to have reached, and the part of
+  // the light that it left out.
+  std::optional<double> error, leftOut;
 };
 
 // Sets a count and replaces the old one of that name.
 void setCount(Stats& stats, const std::string& name, uint64_t count);
 
-// {"device", "technique", "source", "settings": {...}, "prepare_ms", "frame_ms", "passes": [{"name", "ms"}],
-// "counts": {...}, "memory_bytes"}
+// {"schema": "nephroid stats 2", "device", "technique", "source", "settings": {...}, "error", "left_out",
+// "prepare_ms", "frame_ms", "passes": [{"name", "ms"}], "counts": {...}, "memory_bytes"}; error and left_out
+// are null where the technique knows none.
 std::string statsJson(const Stats& stats);
 
 // The middle value, or the mean of the middle two where there is an even number. 0 for an empty list.

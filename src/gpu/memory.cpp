@@ -141,7 +141,8 @@ Allocation MemoryPool::allocate(const VkMemoryRequirements& requirements, Memory
   for (const auto& block : blocks_) {
     if (block->type != type || block->kind != kind) continue;
     holder = block.get();
-    if ((offset = holder->take(size, alignment))) break;
+    offset = holder->take(size, alignment);
+    if (offset) break;
   }
   if (!offset) {
     holder = &newBlock(type, size, kind, name);

@@ -35,8 +35,7 @@ constexpr std::array<VolumeRow, 6> kVolumeRows{{{"sphere", 15.2, 17.3, 15.0, 8.1
                                                 {"bunny", 2.16, 2.30, 2.25, 1.80, 2.55, 25.0}}};
 
 TechniqueSettings volumeSettings(Representation representation) {
-  TechniqueSettings settings;
-  settings.technique = "irradiance-volume";
+  TechniqueSettings settings = papersSettings("irradiance-volume");
   settings.own.of<IrradianceVolumeSettings>().representation = representation;
   return settings;
 }
@@ -79,9 +78,7 @@ void addRates(PaperTable& table, const VolumeRow& row, const std::filesystem::pa
   add("shells", volumeSettings(Representation::shells), row.shells);
   add("multi-resolution", volumeSettings(Representation::multiResolution), row.multiResolution);
   add("harmonics of order 5", harmonicSettings(5), row.harmonics5);
-  TechniqueSettings none;
-  none.technique = "none";
-  add("no caustics", none, row.none);
+  add("no caustics", papersSettings("none"), row.none);
   table.figures.push_back({std::string(row.scene) + ", one light sample", "seconds", "s", row.seconds,
                            secondsPerLightSample(scene)});
 }

@@ -52,9 +52,8 @@ class Bench {
       : device_(deviceToUse), progress_(progressToShow) {}
 
   Drawn draw(const Scene& scene, const ShaftSettings& shafts, int frames = kFrames) const {
-    TechniqueSettings settings;
-    settings.technique = "none";
-    FrameBench bench(device_, scene, settings, {.size = kSizeOfShafts, .shafts = shafts}, progress_);
+    FrameBench bench(device_, scene, papersSettings("none"), {.size = kSizeOfShafts, .shafts = shafts},
+                     progress_);
     const double seconds = bench.seconds({.warmUps = 1, .frames = frames}, scene);
     Drawn drawn{bench.renderer().layers(), {}, seconds, bench.renderer().shafts().planes()};
     drawn.levels = levelsOf(drawn.image, scene.camera.exposure);

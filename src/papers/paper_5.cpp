@@ -106,8 +106,7 @@ void addRow(PaperTable& table, const Pool& view, std::size_t grid, const Scene& 
   const Scene scene = withGrid(start, kGrids[grid]);
   const std::string name = std::string("figure ") + view.figure + " " + view.scene + ", " +
                            std::to_string(kGrids[grid]) + " squared";
-  TechniqueSettings exact;
-  exact.technique = "light-volumes";
+  TechniqueSettings exact = papersSettings("light-volumes");
   exact.transport.source = Source::traced;
   TechniqueSettings still = exact, flat = exact;
   still.own.of<LightVolumeSettings>().cosine = Cosine::stillWater;

@@ -5,6 +5,7 @@
 
 #include "papers/paper_tables.h"
 #include "scene/scene.h"
+#include "techniques/settings.h"
 
 namespace nephroid {
 
@@ -15,5 +16,14 @@ std::filesystem::path paperScenes(const PaperBench& bench);
 
 // Loads the scene of paper 3 with this name from that folder.
 Scene loadPaper3(const std::filesystem::path& folder, const std::string& name);
+
+// As the papers have it: rays of light transport tables, refracted alone.
+inline TechniqueSettings papersSettings(const char* technique) {
+  TechniqueSettings settings;
+  settings.technique = technique;
+  settings.transport.source = Source::table;
+  settings.transport.paths = Paths::transmission;
+  return settings;
+}
 
 }  // namespace nephroid

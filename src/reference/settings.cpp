@@ -1,7 +1,5 @@
 #include "reference/settings.h"
 
-#include <limits>
-
 namespace nephroid {
 namespace {
 
@@ -17,9 +15,6 @@ std::span<const Setting> referenceSettings() {
       wholeSetting<&Choices::passes>(
           "passes", 1, 1e9, "Stop the reference after so many passes; 64 where no reason to stop is given"),
       realSetting<&Choices::seconds>("seconds", 0.001, 1e9, "Stop it after so many seconds"),
-      fractionSetting<&Choices::error>(
-          "error", std::numeric_limits<double>::infinity(),
-          "Stop it when the relative standard error of the caustics is this small: 0.01 or 1%"),
       wholeSetting<&Choices::seed>("seed", 0, kLargestWhole, "The seed of its random numbers"),
       wholeSetting<&Choices::photons>("photons", 1, kMostPhotons, "Photons that it traces in a pass"),
       choiceSetting<&Choices::spectrum>(
@@ -43,8 +38,8 @@ ReferenceSettings referenceSettingsOf(const ReferenceChoices& choices, Paths pat
   return settings;
 }
 
-StopRule stopRuleOf(const ReferenceChoices& choices) {
-  StopRule rule{choices.passes, choices.seconds, choices.error};
+StopRule stopRuleOf(const ReferenceChoices& choices, double error) {
+  StopRule rule{choices.passes, choices.seconds, error};
   if (rule.passes == 0 && rule.seconds <= 0 && rule.error <= 0) rule.passes = kDefaultPasses;
   return rule;
 }

@@ -1,4 +1,4 @@
-// A technique that consists of several techniques, each for its own casters.
+// A technique that consists of several techniques, each for its own casters or its own part of the work.
 #pragma once
 
 #include <memory>
@@ -8,12 +8,18 @@
 
 namespace nephroid {
 
+struct CompositePart {
+  std::unique_ptr<Technique> technique;
+  bool shades = true;    // lights receivers
+  bool scatters = true;  // draws what casters scatter
+};
+
 class CompositeTechnique final : public Technique {
  public:
-  explicit CompositeTechnique(std::vector<std::unique_ptr<Technique>> parts);
+  explicit CompositeTechnique(std::vector<CompositePart> parts);
 
   // A trait that needs more work is set where any part has it; a trait that saves work is set where all parts
-  // have it.
+  // that shade have it.
   TechniqueTraits traits() const override;
   void reserve(uvec2 size) override;
   void update(GpuScene& gpuScene) override;
@@ -26,7 +32,7 @@ class CompositeTechnique final : public Technique {
   void scatter(gpu::CommandList& commands, const WaysOfSight& ways, const gpu::Image& luminance) override;
 
  private:
-  std::vector<std::unique_ptr<Technique>> parts_;
+  std::vector<CompositePart> parts_;
 };
 
 }  // namespace nephroid

@@ -7,7 +7,7 @@
 #endif
 
 #define NEPHROID_TECHNIQUES(TECHNIQUE) \
-  TECHNIQUE(kAutomatic)                \
+  TECHNIQUE(kAdaptiveBeams)            \
   TECHNIQUE(kIlluminationTextures)     \
   TECHNIQUE(kIrradianceVolume)         \
   TECHNIQUE(kLightVolumes)             \

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "beams/settings.h"
+#include "core/accuracy.h"
 #include "core/settings.h"
 #include "transport/settings.h"
 
@@ -23,6 +24,10 @@ struct TechniqueSettings {
       baked;  // the file that `nephroid bake` wrote for the technique; empty: the cache is used
   bool operator==(const TechniqueSettings&) const = default;
 };
+
+inline const Accuracy& accuracyOf(const TechniqueSettings& settings) {
+  return settings.own.of<Accuracy>();
+}
 
 // All settings: of transport and beams, then of every technique. A struct that several techniques share is
 // listed once.

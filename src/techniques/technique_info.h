@@ -33,6 +33,14 @@ struct PreparedParts {
   std::span<const Placement> placements;  // of the objects
 };
 
+// A sensor that is to be read.
+struct SensorRequest {
+  const Scene& scene;
+  const RayScene& rays;  // of the scene
+  const Sensor& sensor;
+  const TechniqueSettings& settings;
+};
+
 // What `nephroid bake` was asked to write.
 struct BakeRequest {
   std::filesystem::path scene;  // for messages
@@ -70,6 +78,9 @@ struct TechniqueInfo {
                           const TechniqueSettings& settings) = nullptr;
   // How `nephroid bake` writes its file. Without one, the file has light transport tables.
   TechniqueBake bake{};
+  // Reads a sensor without a device: the illuminance (lux) of each texel, rows first, by light that met a
+  // caster. Null: the sensor is read through the device, as a camera would see a receiver in its place.
+  std::vector<vec3> (*measure)(const SensorRequest& request, Progress& progress, Stats& stats) = nullptr;
   // Whether `measure` uses beams that are cut at the sensor's own plane, in place of virtual planes, with
   // these settings; null: never.
   bool (*isInSensorPlane)(const TechniqueSettings& settings) = nullptr;

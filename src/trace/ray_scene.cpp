@@ -34,6 +34,9 @@ void embreeOccluded(RTCScene scene, RTCRay& ray) {
 void embreeOccluded(RTCScene scene, const int* valid, RTCRay8& rays) {
   rtcOccluded8(valid, scene, &rays);
 }
+void embreeIntersect(RTCScene scene, const int* valid, RTCRayHit8& rays) {
+  rtcIntersect8(valid, scene, &rays);
+}
 #else
 void embreeIntersect(RTCScene scene, RTCRayHit& query) {
   RTCIntersectContext context;
@@ -50,6 +53,11 @@ void embreeOccluded(RTCScene scene, const int* valid, RTCRay8& rays) {
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcOccluded8(valid, scene, &context, &rays);
+}
+void embreeIntersect(RTCScene scene, const int* valid, RTCRayHit8& rays) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect8(valid, scene, &context, &rays);
 }
 #endif
 
@@ -316,6 +324,55 @@ void RayScene::occluded(vec3 origin, std::span<const vec3> directions, float nea
     }
     embreeOccluded(impl_->root(), valid, rays);
     for (std::size_t i = 0; i < count; ++i) isOccluded[first + i] = rays.tfar[i] < 0;
+  }
+}
+
+void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+  constexpr std::size_t kWidth = 8;
+  countRays(rays.size());
+  for (std::size_t first = 0; first < rays.size(); first += kWidth) {
+    const std::size_t count = std::min(kWidth, rays.size() - first);
+    alignas(32) int valid[kWidth] = {};
+    RTCRayHit8 packet{};
+    for (std::size_t i = 0; i < kWidth; ++i) {
+      const Ray& ray = rays[first + std::min(i, count - 1)];
+      valid[i] = i < count ? -1 : 0;
+      packet.ray.org_x[i] = ray.origin.x;
+      packet.ray.org_y[i] = ray.origin.y;
+      packet.ray.org_z[i] = ray.origin.z;
+      packet.ray.dir_x[i] = ray.direction.x;
+      packet.ray.dir_y[i] = ray.direction.y;
+      packet.ray.dir_z[i] = ray.direction.z;
+      packet.ray.tnear[i] = ray.nearDistance;
+      packet.ray.tfar[i] = ray.farDistance;
+      packet.ray.mask[i] = ~0u;
+      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    embreeIntersect(impl_->root(), valid, packet);
+    for (std::size_t i = 0; i < count; ++i) {
+      hits[first + i].object = kNone;
+      if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      RTCRayHit query{};
+      query.ray.dir_x = packet.ray.dir_x[i];
+      query.ray.dir_y = packet.ray.dir_y[i];
+      query.ray.dir_z = packet.ray.dir_z[i];
+      query.ray.tfar = packet.ray.tfar[i];
+      query.hit.u = packet.hit.u[i];
+      query.hit.v = packet.hit.v[i];
+      query.hit.primID = packet.hit.primID[i];
+      query.hit.instID[0] = packet.hit.instID[0][i];
+      impl_->describe(query, hits[first + i]);
+    }
+  }
+}
+
+void RayScene::occluded(std::span<const Ray> rays, std::span<uint8_t> isOccluded) const {
+  countRays(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    RTCRay query = embreeRay(rays[i]);
+    embreeOccluded(impl_->root(), query);
+    isOccluded[i] = query.tfar < 0;
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "optics/refraction.h"
 #include "scene/volume.h"
+#include "transport/crossing.h"
 
 namespace nephroid {
 namespace {
@@ -16,13 +16,6 @@ uint32_t extendSignature(uint32_t signature, uint32_t object, uint32_t patch, Ev
   for (const uint32_t word : {object, patch, static_cast<uint32_t>(event)})
     signature = (signature ^ (word + 0x9e3779b9u)) * 16777619u;  // FNV-1a, a word at a time
   return signature;
-}
-
-// The smooth normal on the side the light comes from; the geometric one where the smooth one faces away from
-// the light.
-vec3 facingNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
-  const float side = dot(direction, geometricNormal) < 0 ? 1.0f : -1.0f;
-  return dot(direction, side * normal) < 0 ? side * normal : side * geometricNormal;
 }
 
 }  // namespace
@@ -38,10 +31,6 @@ struct Walk {
   MediumStack media;
   uint32_t choices = 0;  // boundaries passed where light could both be reflected and transmitted
 };
-
-float iorOf(const std::vector<const Material*>& materials, uint32_t object, uint32_t channel) {
-  return object == kNone ? 1.0f : materials[object]->ior[int(channel)];
-}
 
 // Light that meets a dielectric boundary goes on along `walk`. False: it is lost.
 bool crossDielectric(const std::vector<const Material*>& materials, const FollowSettings& settings,
@@ -86,9 +75,7 @@ bool crossDielectric(const std::vector<const Material*>& materials, const Follow
 // included.
 void crossThinWall(const Material& material, const FollowSettings& settings, uint32_t object, uint32_t patch,
                    vec3 normal, Walk& walk) {
-  const float reflectance = fresnelReflectance(std::min(1.0f, -dot(walk.ray.direction, normal)),
-                                               1 / material.ior[int(settings.channel)]);
-  walk.ray.transmittance *= material.color * ((1 - reflectance) / (1 + reflectance));
+  walk.ray.transmittance *= thinWallTransmittance(material, settings.channel, walk.ray.direction, normal);
   walk.ray.signature = extendSignature(walk.ray.signature, object, patch, Event::entered);
 }
 

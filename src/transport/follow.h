@@ -4,13 +4,11 @@
 #include <vector>
 
 #include "trace/ray_scene.h"
+#include "transport/crossing.h"
 #include "transport/outgoing_ray.h"
 #include "transport/source.h"
 
 namespace nephroid {
-
-// The most boundaries that a ray may meet. After that it counts as trapped.
-inline constexpr uint32_t kMaximumCrossings = 48;
 
 struct FollowSettings {
   uint32_t channel = 0;

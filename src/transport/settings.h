@@ -17,8 +17,8 @@ constexpr const auto& namesOf(Source) {
 }
 
 struct TransportSettings {
-  Source source = Source::table;
-  Paths paths = Paths::transmission;
+  Source source = Source::traced;
+  Paths paths = Paths::all;
   uint32_t directions = 129;    // for each vertex of a light transport table
   std::filesystem::path baked;  // file of tables; empty: they are taken from the cache, or built
   bool operator==(const TransportSettings&) const = default;

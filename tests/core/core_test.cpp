@@ -137,8 +137,17 @@ TEST(Progress, SaysDurationsAsPeopleDo) {
 }
 
 TEST(Stats, AreTheDocumentedFields) {
-  const Stats stats{"llvmpipe \xff",  "none",         "traced", {{"planes", "4"}}, 12.5, 3,
-                    {{"shade", 2.5}}, {{"beams", 7}}, 1024};
+  const Stats stats{"llvmpipe \xff",
+                    "none",
+                    "traced",
+                    {{"planes", "4"}},
+                    12.5,
+                    3,
+                    {{"shade", 2.5}},
+                    {{"beams", 7}},
+                    1024,
+                    0.02,
+                    {}};
   const auto json = nlohmann::json::parse(statsJson(stats));
   EXPECT_EQ(json["prepare_ms"], 12.5);
   EXPECT_EQ(json["frame_ms"], 3);
@@ -147,7 +156,10 @@ TEST(Stats, AreTheDocumentedFields) {
   EXPECT_EQ(json["counts"]["beams"], 7);
   EXPECT_EQ(json["settings"]["planes"], "4");
   EXPECT_EQ(json["memory_bytes"], 1024);
-  EXPECT_EQ(json.size(), 9u);
+  EXPECT_EQ(json["schema"], "nephroid stats 2");
+  EXPECT_EQ(json["error"], 0.02);
+  EXPECT_TRUE(json["left_out"].is_null());
+  EXPECT_EQ(json.size(), 12u);
 }
 
 TEST(Stats, MedianIsTheMiddle) {

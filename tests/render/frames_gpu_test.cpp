@@ -73,10 +73,10 @@ TEST_F(Frames, ShowWhatMoves) {
   Scene elsewhere = scenes[0];
   elsewhere.camera.position = {3, 2, 1};
   for (Object& object : elsewhere.objects) object.placement.translation += vec3(0.4f, 0.1f, 0.2f);
-  for (const char* technique : {"automatic", "sliced-images"}) {
+  for (const char* technique : {"adaptive-beams", "sliced-images"}) {
     Kept keeping(scenes[0], technique, true), making(scenes[0], technique, false);
-    const bool isAutomatic = std::string(technique) == "automatic";
-    for (std::size_t i = 0; i < (isAutomatic ? scenes.size() : 4); ++i) {
+    const bool isDefault = std::string(technique) == defaultTechnique();
+    for (std::size_t i = 0; i < (isDefault ? scenes.size() : 4); ++i) {
       making.draw(elsewhere);
       EXPECT_EQ(keeping.draw(scenes[i]), making.draw(scenes[i])) << technique << ", frame " << i;
     }
@@ -89,7 +89,7 @@ TEST_F(Frames, ShowWhatMoves) {
 TEST_F(Frames, KeepWhatStandsStill) {
   const Scene scene = room();
   for (const bool keepsLight : {false, true}) {
-    Kept drawing(scene, "automatic", keepsLight);
+    Kept drawing(scene, defaultTechnique(), keepsLight);
     const auto has = [](const std::vector<PassTime>& passes, const std::string& name) {
       return std::ranges::find(passes, name, &PassTime::name) != passes.end();
     };

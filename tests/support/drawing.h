@@ -16,6 +16,7 @@ inline TechniqueSettings settingsOf(const std::string& technique, Source source 
   TechniqueSettings settings;
   settings.technique = technique;
   settings.transport.source = source;
+  settings.transport.paths = Paths::transmission;
   return settings;
 }
 

@@ -233,7 +233,7 @@ TEST_F(IlluminationTexturesGpuTest, DependNeitherOnTheCameraNorOnThePartAskedFor
   Scene scene = glassBoxAboveFloor();
   GpuScene gpuScene(device(), scene);
   TechniqueSettings settings;
-  settings.transport.source = Source::traced;
+  settings.technique = "illumination-textures";
   settings.own.of<PlaneSettings>().textureSize = 128;
   Progress progress;
   Stats stats;

@@ -124,10 +124,10 @@ class Asked final : public Technique {
 
 TEST_F(PlugInGpuTest, CompositesPassEverythingOn) {
   std::vector<std::string> calls;
-  std::vector<std::unique_ptr<Technique>> parts;
+  std::vector<CompositePart> parts;
   parts.push_back(
-      std::make_unique<Asked>(calls, TechniqueTraits{.followsCamera = true, .coversSquares = true}, false));
-  parts.push_back(std::make_unique<Asked>(calls, TechniqueTraits{.usesBeams = true}, true));
+      {std::make_unique<Asked>(calls, TechniqueTraits{.followsCamera = true, .coversSquares = true}, false)});
+  parts.push_back({std::make_unique<Asked>(calls, TechniqueTraits{.usesBeams = true}, true)});
   CompositeTechnique both(std::move(parts));
   const Scene scene = floorAndLamp();
   GpuScene gpuScene(device(), scene);

@@ -174,7 +174,7 @@ TEST_F(ScatteringGpuTest, WaterTakesItsPartOfWhatAnEyeInItSees) {
 TEST_F(ScatteringGpuTest, IsLeftToLightVolumes) {
   const Scene scene = pool({0, -1, 0});
   EXPECT_EQ(shaftsOf(scene, "shafts.", "none"), vec3(0));
-  EXPECT_EQ(shaftsOf(scene, "shafts.", "automatic"), shaftsOf(scene));
+  EXPECT_EQ(shaftsOf(scene, "shafts.", "adaptive-beams"), shaftsOf(scene));
 }
 
 }  // namespace

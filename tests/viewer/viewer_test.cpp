@@ -213,6 +213,7 @@ TEST(Histories, GoBackAndForth) {
 TEST(SceneStates, TellWhatHasToBePreparedAnew) {
   Scene scene = ballScene();
   TechniqueSettings table, traced, volumes;
+  table.transport.source = Source::table;
   traced.transport.source = Source::traced;
   volumes.technique = "irradiance-volume";
   const SceneState before = stateOf(scene);

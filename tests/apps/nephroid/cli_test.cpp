@@ -61,6 +61,26 @@ TEST_F(SceneCommand, InfoSaysWhatASceneHolds) {
   EXPECT_NE(result.output.find("sensor"), std::string::npos) << result.output;
 }
 
+TEST_F(SceneCommand, WorksWithinTheErrorAndTheMemoryAskedFor) {
+  const auto measure = [&](std::initializer_list<std::string> more) {
+    std::vector<std::string> arguments{"measure", at("scene.toml"), "--sensor", "floor",
+                                       "-o",      at("floor.exr")};
+    arguments.insert(arguments.end(), more);
+    return runProgram(arguments);
+  };
+  for (const char* wrong : {"0", "-0.1", "1.5", "nan", "little"}) {
+    const ProgramResult result = measure({"--error", wrong});
+    EXPECT_EQ(result.status, 2) << wrong;
+    EXPECT_TRUE(result.hasOneLineOfErrors()) << result.errors;
+  }
+  EXPECT_EQ(measure({"--error", "2%", "--memory", "16", "--stats", at("stats.json")}).status, 0);
+  const auto stats = nlohmann::json::parse(std::ifstream(at("stats.json")));
+  EXPECT_EQ(stats["technique"], "adaptive-beams");
+  EXPECT_EQ(stats["settings"]["error"], "0.02");
+  EXPECT_GE(stats["error"], 0);
+  EXPECT_LE(stats["left_out"], 0.2 * 0.02);
+}
+
 TEST_F(SceneCommand, BakedTablesAreUsedForTheirSceneAndRefusedForAnother) {
   const std::string ball = R"(
 [[material]]
@@ -80,10 +100,10 @@ translation = [0, 1, 0]
   ASSERT_EQ(
       runProgram({"bake", at("ball.toml"), "-o", at("ball.tables"), "--directions", "33"}, cache).status, 0);
   const auto measure = [&](const char* directions) {
-    return runProgram(
-        {"measure", at("ball.toml"), "--sensor", "floor", "-o", at("floor.exr"), "--planes", "sensor",
-         "--source", "table", "--directions", directions, "--baked", at("ball.tables")},
-        cache);
+    return runProgram({"measure", at("ball.toml"), "--sensor", "floor", "-o", at("floor.exr"), "--technique",
+                       "illumination-textures", "--planes", "sensor", "--source", "table", "--directions",
+                       directions, "--baked", at("ball.tables")},
+                      cache);
   };
   EXPECT_EQ(measure("33").status, 0) << measure("33").errors;
   const ProgramResult other = measure("129");

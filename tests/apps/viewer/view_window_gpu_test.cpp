@@ -106,21 +106,21 @@ uint32_t largestDifference(const fs::path& a, const fs::path& b) {
 TEST_F(ViewWindow, ShowsWhatRenderMakesOfTheSavedScene) {
   const Scene before = loadScene(folder_ / "scene.toml");
   const auto process = view({"--stats", (folder_ / "stats.json").string()});
-  ASSERT_TRUE(becomes("^scene.toml - automatic", *process));
+  ASSERT_TRUE(becomes("^scene.toml - adaptive-beams", *process));
   type("key t");  // the times would lie over so small a picture
   const vec2 light = *pixelOf(before.camera, kSize, before.lights[0].position);
   type("mousemove " + at(light) + " mousedown 1 sleep 0.1 mousemove " + at(light + vec2(-6, 3)) +
        " sleep 0.1 mousemove " + at(light + vec2(-25, 6)) + " sleep 0.2 mouseup 1");
-  ASSERT_TRUE(becomes("^scene.toml\\* - automatic", *process));
+  ASSERT_TRUE(becomes("^scene.toml\\* - adaptive-beams", *process));
   type("key ctrl+s");
-  ASSERT_TRUE(becomes("^scene.toml - automatic", *process));
+  ASSERT_TRUE(becomes("^scene.toml - adaptive-beams", *process));
   const Scene after = loadScene(folder_ / "scene.toml");
   EXPECT_LT(after.lights[0].position.x, 0.5);
   EXPECT_NE(readAll(folder_ / "scene.toml").find("[[light]] # moved by hand"), std::string::npos);
 
   int number = 0;
-  for (const char* technique : {"automatic", "illumination-textures", "irradiance-volume", "light-volumes",
-                                "sliced-images", "none"}) {
+  for (const char* technique : {"adaptive-beams", "illumination-textures", "irradiance-volume",
+                                "light-volumes", "sliced-images", "none"}) {
     SCOPED_TRACE(technique);
     if (number > 0) type("key m");
     ASSERT_TRUE(becomes(std::string("^scene.toml - ") + technique, *process));

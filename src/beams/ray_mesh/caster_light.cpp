@@ -1,0 +1,105 @@
+#include "beams/ray_mesh/caster_light.h"
+
+#include <algorithm>
+
+#include "beams/incident_flux.h"
+#include "geometry/curved_triangle.h"
+#include "lights/emitters.h"
+#include "lights/light_in_air.h"
+
+namespace nephroid {
+namespace {
+
+// Cosine at which light that meets a surface from behind its smooth normal is taken to graze it.
+constexpr float kGrazing = 0.02f;
+
+bool disperses(const Scene& scene) {
+  return std::ranges::any_of(scene.objects, [&](const Object& object) {
+    const Material& material = scene.materialOf(object);
+    return material.type == MaterialType::dielectric && material.isDispersive();
+  });
+}
+
+}  // namespace
+
+std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, MediaTable& media) {
+  const std::vector<const Material*> materials = materialsOf(scene);
+  const int channels = disperses(scene) ? 3 : 1;
+  std::vector<CasterLight> all;
+  for (const Emitter& emitter : emittersOf(scene)) {
+    MediumStack around;
+    if (emitter.type != kEmitterDirectional) around = mediaAround(rays, materials, emitter.position);
+    for (uint32_t object = 0; object < scene.objects.size(); ++object) {
+      if (!scene.isCaster(scene.objects[object])) continue;
+      for (int channel = 0; channel < channels; ++channel) {
+        CasterLight light;
+        light.object = object;
+        light.emitter = emitter;
+        light.light = shapedLight(scene, scene.lights[emitter.light]);
+        light.medium = media.numberOf(around);
+        light.channel = uint8_t(channel);
+        if (channels == 3) {
+          light.bandColor = vec3(0);
+          light.bandColor[channel] = 1;
+        }
+        light.facing = around.contains(object) ? -1.0f : 1.0f;
+        all.push_back(light);
+      }
+    }
+  }
+  return all;
+}
+
+EntryPoint entryPoint(const Scene& scene, const RayScene& rays, uint32_t objectIndex, uint32_t triangle,
+                      vec2 weights) {
+  const Object& object = scene.objects[objectIndex];
+  const Mesh& mesh = scene.meshOf(object);
+  const uvec3 corners = mesh.triangles[triangle];
+  mat3 positions, normals;
+  for (int i = 0; i < 3; ++i) {
+    positions[i] = mesh.positions[corners[i]];
+    normals[i] = mesh.normals[corners[i]];
+  }
+  const vec3 all(1 - weights.x - weights.y, weights);
+  EntryPoint entry;
+  const vec3 flat = positions * all;
+  const vec3 curved = mesh.isCurved ? flat + curvedOffset(flat, all, positions, normals) : flat;
+  entry.flatPosition = object.placement.point(flat);
+  entry.position = object.placement.point(curved);
+  entry.normal = object.placement.direction(normalize(normals * all));
+  const vec3 doubledArea = cross(positions[1] - positions[0], positions[2] - positions[0]);
+  entry.geometricNormal = object.placement.direction(doubledArea / std::max(length(doubledArea), 1e-30f));
+  entry.patch = rays.patchOf(object.mesh, triangle);
+  return entry;
+}
+
+PathNode firstNode(const CasterLight& light, const EntryPoint& entry, uint32_t corner) {
+  PathNode node;
+  node.direction = emitterDirection(light.emitter, entry.position);
+  node.length =
+      light.emitter.type == kEmitterDirectional ? 0 : glm::distance(light.emitter.position, entry.position);
+  node.position = entry.position;
+  node.flatPosition = entry.flatPosition;
+  node.object = light.object;
+  node.patch = entry.patch;
+  node.corner = corner;
+  node.medium = light.medium;
+  node.channel = light.channel;
+  node.state = PathState::atCaster;
+  // Of a triangle that the light meets though the smooth normal faces away, past the silhouette.
+  vec3 normal = light.facing * entry.normal;
+  const float cosine = -dot(node.direction, normal);
+  if (cosine < kGrazing) normal = normalize(normal - (kGrazing - cosine) * node.direction);
+  node.normal = light.facing * normal;
+  const bool isMetRight = light.facing * dot(entry.geometricNormal, node.direction) < 0;
+  node.geometricNormal = isMetRight ? entry.geometricNormal : node.normal;
+  return node;
+}
+
+vec3 fluxBetween(const Scene& scene, const CasterLight& light, vec3 a, vec3 b, vec3 c) {
+  const vec3 flux = light.facing * fluxOnto(light.light, light.emitter, a, b, c);
+  const float air = scene.medium ? airTransmittance(scene, light.emitter, (a + b + c) / 3.0f) : 1.0f;
+  return light.bandColor * glm::max(flux, vec3(0)) * air;
+}
+
+}  // namespace nephroid

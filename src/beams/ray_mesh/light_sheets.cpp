@@ -1,0 +1,371 @@
+#include "beams/ray_mesh/light_sheets.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "beams/first_cuts.h"
+#include "core/index_range.h"
+#include "geometry/bounds.h"
+
+namespace nephroid {
+namespace {
+
+constexpr std::size_t kGrain = 256;
+constexpr uint32_t kMaximumForcedCuts = 7;
+// A branch that carries no more of the light that fed it is left out, as far as the error allows.
+constexpr float kWeakBranch = 0.02f;
+constexpr double kLeftOut = 0.07;  // of the error
+// By how much a single path stands for light of a wider beam at each boundary that it passes.
+constexpr float kSpreadAtBoundary = 2.0f;
+
+// 0 to 1, at random, the same for the same numbers.
+float chance(uint32_t a, uint32_t b) {
+  uint64_t x = (uint64_t(a) << 32 | b) + 0x9e3779b97f4a7c15u;
+  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+  return float((x ^ x >> 31) >> 40) * 0x1p-24f;
+}
+
+// Whether the three paths of a sheet are one way.
+bool isOneWay(const std::vector<PathNode>& nodes, const Sheet& sheet) {
+  const PathNode &a = nodes[sheet.node[0]], &b = nodes[sheet.node[1]], &c = nodes[sheet.node[2]];
+  return a.signature == b.signature && a.signature == c.signature && a.generation == b.generation &&
+         a.generation == c.generation;
+}
+
+}  // namespace
+
+LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const RayMeshSettings& settingsOf)
+    : tree(sceneOf, rayScene, settingsOf.paths, settingsOf.target),
+      scene_(sceneOf),
+      rays_(rayScene),
+      settings_(settingsOf),
+      lights_(lightOntoCasters(sceneOf, rayScene, tree.media())),
+      middles_(lights_.size()) {
+  for (const Mesh& mesh : scene_.meshes) rims_.emplace_back(mesh);
+}
+
+uint32_t LightSheets::addCorner(const NewCorner& corner) {
+  pending_.push_back(corner);
+  firstOfCorner_.push_back(kNone);
+  return uint32_t(firstOfCorner_.size() - 1);
+}
+
+void LightSheets::settleCorners() {
+  const std::size_t count = pending_.size(), firstNodeIndex = tree.nodes.size();
+  const uint32_t firstCorner = uint32_t(firstOfCorner_.size() - count);
+  std::vector<PathNode> begun(count);
+  const float margin = rays_.selfIntersectionDistance();
+  oneapi::tbb::parallel_for(IndexRange(0, count, kGrain), [&](const IndexRange& range) {
+    std::vector<Ray> toLight;
+    std::vector<uint8_t> isDark(range.size());
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const NewCorner& at = pending_[i];
+      const CasterLight& light = lights_[at.light];
+      const uint32_t mesh = scene_.objects[light.object].mesh;
+      const vec2 weights = rims_[mesh].movedOff(scene_.meshes[mesh], at.triangle, at.weights);
+      const EntryPoint entry = entryPoint(scene_, rays_, light.object, at.triangle, weights);
+      begun[i] = firstNode(light, entry, firstCorner + uint32_t(i));
+      const float far = light.emitter.type == kEmitterDirectional ? std::numeric_limits<float>::infinity()
+                                                                  : begun[i].length;
+      toLight.push_back({entry.flatPosition, -begun[i].direction, margin, far - margin});
+    }
+    rays_.occluded(toLight, isDark);
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      if (isDark[i - range.begin()]) begun[i].state = PathState::dark;
+  });
+  stats.shadowRays += count;
+  tree.nodes.reserve(firstNodeIndex + count);
+  for (std::size_t i = 0; i < count; ++i) firstOfCorner_[firstCorner + i] = tree.addFirst(begun[i]);
+  pending_.clear();
+}
+
+// All asked for goes on together, boundary by boundary.
+void LightSheets::reach(std::vector<Ask>& asks) {
+  settleCorners();
+  uint8_t farthest = 0;
+  for (Ask& ask : asks) {
+    ask.node = firstOfCorner_[ask.corner];
+    farthest = std::max(farthest, ask.generation);
+  }
+  std::vector<uint32_t> fresh, ahead;
+  for (uint8_t generation = 0; generation < farthest; ++generation) {
+    fresh.clear();
+    ahead.clear();
+    for (Ask& ask : asks) {
+      if (ask.generation <= generation) continue;
+      const PathNode& node = tree.nodes[ask.node];
+      if (node.state != PathState::atCaster || node.generation != generation) continue;
+      const uint8_t asked = uint8_t(ask.path >> generation & 1u);
+      const uint32_t ways = tree.waysFrom(node);
+      // Where there is one way alone, that one.
+      const uint8_t way = ways >> asked & 1u ? asked : uint8_t(1 - asked);
+      const bool isKnown = node.child[way] != kNone;
+      ask.node = tree.childOf(ask.node, way, fresh);
+      if (isKnown && tree.nodes[ask.node].state == PathState::ahead) ahead.push_back(ask.node);
+    }
+    tree.bend(fresh);
+    for (const uint32_t node : fresh)
+      if (tree.nodes[node].state == PathState::ahead) ahead.push_back(node);
+    std::ranges::sort(ahead);
+    ahead.erase(std::unique(ahead.begin(), ahead.end()), ahead.end());
+    std::erase_if(ahead, [&](uint32_t node) { return tree.nodes[node].state != PathState::ahead; });
+    tree.trace(ahead);
+  }
+}
+
+vec3 LightSheets::fluxOf(const Sheet& sheet) const {
+  const CasterLight& light = lights_[sheet.light];
+  vec3 corners[3];
+  for (int i = 0; i < 3; ++i)
+    corners[i] = entryPoint(scene_, rays_, light.object, sheet.triangle, sheet.weights[i]).position;
+  return sheet.gain * fluxBetween(scene_, light, corners[0], corners[1], corners[2]);
+}
+
+void LightSheets::setFluxes(std::span<Sheet> sheets) const {
+  oneapi::tbb::parallel_for(IndexRange(0, sheets.size(), kGrain), [&](const IndexRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) sheets[i].flux = fluxOf(sheets[i]);
+  });
+}
+
+std::vector<Sheet> LightSheets::firstSheets() {
+  std::vector<Sheet> sheets, forced[kMaximumForcedCuts + 1];
+  std::vector<uint32_t> cornerOf;
+  for (uint16_t index = 0; index < lights_.size(); ++index) {
+    const Object& object = scene_.objects[lights_[index].object];
+    const Mesh& mesh = scene_.meshOf(object);
+    const float extent = boundingBox(mesh).diagonal();
+    std::vector<Sheet> all(mesh.triangles.size());
+    for (uint32_t t = 0; t < all.size(); ++t) {
+      all[t].triangle = t;
+      all[t].light = index;
+      all[t].weights[0] = vec2(0);
+      all[t].weights[1] = vec2(1, 0);
+      all[t].weights[2] = vec2(0, 1);
+    }
+    setFluxes(all);
+    std::erase_if(all, [](const Sheet& sheet) { return !(sheet.flux.x + sheet.flux.y + sheet.flux.z > 0); });
+    cornerOf.assign(mesh.positions.size(), kNone);
+    for (Sheet& sheet : all) {
+      stats.incidentFlux += double(luminanceOf(sheet.flux));
+      for (int i = 0; i < 3; ++i) {
+        uint32_t& corner = cornerOf[mesh.triangles[sheet.triangle][i]];
+        if (corner == kNone) corner = addCorner({index, sheet.triangle, sheet.weights[i]});
+        sheet.node[i] = corner;  // until it is settled
+      }
+      forced[firstCutsFor(mesh, mesh.triangles[sheet.triangle], extent)].push_back(sheet);
+    }
+  }
+  settleCorners();
+  for (std::vector<Sheet>& some : forced)
+    for (Sheet& sheet : some)
+      for (uint32_t& node : sheet.node) node = firstOfCorner_[node];
+  for (std::size_t cuts = kMaximumForcedCuts; cuts > 0; --cuts) {
+    cut(forced[cuts], forced[cuts - 1]);
+    for (Sheet& sheet : forced[cuts - 1]) sheet.cuts = 0;
+  }
+  return std::move(forced[0]);
+}
+
+void LightSheets::cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts) {
+  if (sheets.empty()) return;
+  std::vector<Ask> asks;
+  asks.reserve(3 * sheets.size());
+  for (const Sheet& sheet : sheets)
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const uint32_t a = tree.nodes[sheet.node[i]].corner, b = tree.nodes[sheet.node[j]].corner;
+      uint32_t& middle = middles_[sheet.light].at(a, b);
+      if (middle == EdgeTable::kEmpty)
+        middle = addCorner({sheet.light, sheet.triangle, 0.5f * (sheet.weights[i] + sheet.weights[j])});
+      asks.push_back({middle, sheet.path, sheet.generation});
+    }
+  reach(asks);
+  const std::size_t first = parts.size();
+  parts.resize(first + 4 * sheets.size());
+  oneapi::tbb::parallel_for(IndexRange(0, sheets.size(), kGrain), [&](const IndexRange& range) {
+    for (std::size_t s = range.begin(); s < range.end(); ++s) {
+      const Sheet& whole = sheets[s];
+      uint32_t node[6];
+      vec2 weights[6];
+      for (int i = 0; i < 3; ++i) {
+        node[i] = whole.node[i];
+        weights[i] = whole.weights[i];
+        node[3 + i] = asks[3 * s + i].node;
+        weights[3 + i] = 0.5f * (whole.weights[i] + whole.weights[(i + 1) % 3]);
+      }
+      float bend = isOneWay(tree.nodes, whole) ? 0.0f : kUnknownBend;
+      if (bend == 0)
+        for (int i = 0; i < 3; ++i)
+          bend = std::max(
+              bend, length(tree.nodes[node[3 + i]].position -
+                           0.5f * (tree.nodes[node[i]].position + tree.nodes[node[(i + 1) % 3]].position)));
+      constexpr int kParts[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+      for (int p = 0; p < 4; ++p) {
+        Sheet& part = parts[first + 4 * s + p];
+        part = whole;
+        part.cuts = uint8_t(whole.cuts + 1);
+        part.bend = bend == kUnknownBend ? bend : 0.25f * bend;
+        for (int i = 0; i < 3; ++i) {
+          part.node[i] = node[kParts[p][i]];
+          part.weights[i] = weights[kParts[p][i]];
+        }
+        part.flux = fluxOf(part);
+      }
+    }
+  });
+}
+
+std::size_t LightSheets::bytes() const {
+  std::size_t sum = tree.nodes.capacity() * sizeof(PathNode) + firstOfCorner_.capacity() * sizeof(uint32_t);
+  for (const EdgeTable& table : middles_) sum += table.bytes();
+  return sum;
+}
+
+// Whether light that ended before the boundary where the sheet stands is another sheet's: of all the ways
+// that were taken after it ended, the first ones count it.
+bool LightSheets::isElsewhere(const Sheet& sheet) const {
+  const uint8_t ended = tree.nodes[sheet.node[0]].generation;
+  return ended < sheet.generation && (sheet.aside >> ended) != 0;
+}
+
+void LightSheets::follow(std::vector<Sheet> sheets, std::vector<Sheet>& landed, Progress& progress) {
+  std::vector<Sheet> onward, mixed, next;
+  while (!sheets.empty()) {
+    progress.advance();
+    onward.clear();
+    mixed.clear();
+    next.clear();
+    for (const Sheet& sheet : sheets) {
+      if (!isOneWay(tree.nodes, sheet)) {
+        mixed.push_back(sheet);
+        continue;
+      }
+      const PathNode& node = tree.nodes[sheet.node[0]];
+      if (node.state == PathState::atCaster) {
+        onward.push_back(sheet);
+      } else if (isElsewhere(sheet)) {
+        continue;
+      } else if (node.state == PathState::arrived) {
+        landed.push_back(sheet);
+      } else if (node.state == PathState::lost) {
+        stats.lostFlux += double(luminanceOf(carried(sheet)));
+      }
+    }
+    expand(onward, next);
+    part(mixed, next);
+    sheets.swap(next);
+  }
+}
+
+void LightSheets::expand(std::span<const Sheet> sheets, std::vector<Sheet>& next) {
+  if (sheets.empty()) return;
+  std::vector<Sheet> children;
+  std::vector<uint32_t> fresh;
+  children.reserve(2 * sheets.size());
+  for (const Sheet& sheet : sheets) {
+    const PathNode& node = tree.nodes[sheet.node[0]];
+    const uint32_t ways = tree.waysFrom(node);
+    // A sheet whose paths turned out to be at an earlier boundary goes on from there.
+    const uint8_t generation = node.generation;
+    for (const uint8_t way : {kTransmitted, kReflected}) {
+      if (!(ways >> way & 1u)) continue;
+      if (generation < sheet.generation && uint8_t(sheet.path >> generation & 1u) != way && ways == 3u)
+        continue;
+      Sheet child = sheet;
+      child.generation = uint8_t(generation + 1);
+      const uint64_t below = (uint64_t{1} << generation) - 1;
+      child.path = (sheet.path & below) | uint64_t(way) << generation;
+      const bool isFirst = way == kTransmitted || !(ways & 1u);
+      child.aside = (sheet.aside & below) | uint64_t(!isFirst) << generation;
+      if (sheet.cuts == kWhole) {
+        child.node[0] = child.node[1] = child.node[2] = tree.childOf(sheet.node[0], way, fresh);
+        child.bend *= kSpreadAtBoundary;
+      } else {
+        for (uint32_t& at : child.node) at = tree.childOf(at, way, fresh);
+      }
+      children.push_back(child);
+    }
+  }
+  tree.bend(fresh);
+  prune(children);
+  chooseAmongWeak(children);
+  std::vector<uint32_t> ahead;
+  std::vector<uint8_t> isAsked(tree.nodes.size(), 0);
+  for (const Sheet& child : children)
+    for (const uint32_t node : child.node)
+      if (tree.nodes[node].state == PathState::ahead && !isAsked[node]) {
+        isAsked[node] = 1;
+        ahead.push_back(node);
+      }
+  tree.trace(ahead);
+  next.insert(next.end(), children.begin(), children.end());
+}
+
+// Leaves branches out that carry little of the light that fed them, the weakest first, as far as the error
+// allows; and those that carry nothing.
+void LightSheets::prune(std::vector<Sheet>& sheets) {
+  constexpr int kBuckets = 256;
+  constexpr float kBucketsAnOctave = 8;
+  std::vector<float> part(sheets.size());
+  double inBucket[kBuckets] = {};
+  const auto bucketOf = [&](float transmittance) {
+    return int(glm::clamp(-std::log2(transmittance) * kBucketsAnOctave, 0.0f, float(kBuckets - 1)));
+  };
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const float flux = luminanceOf(sheets[i].flux), left = luminanceOf(carried(sheets[i]));
+    part[i] = flux > 0 ? left / flux : 0;
+    if (part[i] > 0 && part[i] < kWeakBranch) inBucket[bucketOf(part[i])] += double(left);
+  }
+  double allowed = kLeftOut * double(settings_.error) * stats.incidentFlux - stats.droppedFlux;
+  int last = kBuckets;  // the first that is left out
+  while (last > 0 && allowed >= inBucket[last - 1]) allowed -= inBucket[--last];
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const bool isDropped = part[i] < kWeakBranch && (part[i] <= 0 || bucketOf(part[i]) >= last);
+    if (isDropped) {
+      stats.droppedFlux += double(luminanceOf(carried(sheets[i])));
+    } else {
+      sheets[kept++] = sheets[i];
+    }
+  }
+  sheets.resize(kept);
+}
+
+// A path alone goes one way at each boundary, at random by what goes there, with the light of all; and of
+// sheets that carry little some are taken out by lot, with their light given to the others: in the mean
+// nothing is missing, and long ways of trapped light cost little.
+void LightSheets::chooseAmongWeak(std::vector<Sheet>& children) {
+  const float least = kLeastCarried * settings_.error * float(stats.incidentFlux);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < children.size(); ++i) {
+    Sheet child = children[i];
+    float left = luminanceOf(carried(child));
+    if (!(left > 0)) continue;
+    const PathNode& node = tree.nodes[child.node[0]];
+    if (child.cuts == kWhole && i + 1 < children.size() && children[i + 1].cuts == kWhole &&
+        tree.nodes[children[i + 1].node[0]].parent == node.parent) {
+      const float other = luminanceOf(carried(children[i + 1]));
+      const bool isOther = chance(node.corner, 2u * node.generation) * (left + other) >= left;
+      const float all = left + other;
+      if (isOther) {
+        child = children[i + 1];
+        left = other;
+      }
+      child.flux *= all / left;
+      left = all;
+      ++i;
+    }
+    if (left < least && child.generation > 1) {
+      if (chance(node.corner, 2u * node.generation + 1) * least >= left) continue;
+      child.flux *= least / left;
+      child.gain *= least / left;
+    }
+    children[kept++] = child;
+  }
+  children.resize(kept);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,106 @@
+// Sheets of light: triangles between three paths of a mesh of rays, followed from boundary to boundary, and
+// parted where their paths part.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "beams/ray_mesh/caster_light.h"
+#include "beams/ray_mesh/edge_table.h"
+#include "beams/ray_mesh/facet_rims.h"
+#include "beams/ray_mesh/ray_mesh.h"
+
+namespace nephroid {
+
+inline constexpr float kUnknownBend = 1e30f;
+
+// Light onto a part of a caster's triangle, along one way at each boundary.
+struct Sheet {
+  uint32_t node[3];       // of its corners' paths, at the boundary where it is followed to
+  uint32_t triangle = 0;  // of the caster's mesh
+  vec2 weights[3];        // of its corners, in that triangle
+  vec3 flux{0};           // lm onto it
+  float gain = 1;         // in it, for light that it stands for besides its own
+  // m that its sides' middles are expected to land off the middles of their ends; of one path alone, the
+  // radius of the beam that it stands for.
+  float bend = kUnknownBend;
+  uint64_t path = 0;   // bit i: reflected at boundary i
+  uint64_t aside = 0;  // bit i: not the first of the ways at boundary i
+  uint16_t light = 0;
+  uint8_t generation = 0;  // boundaries that it has passed
+  uint8_t cuts = 0;
+};
+
+// Cuts of a sheet of one path alone, which is not cut.
+inline constexpr uint8_t kWhole = 255;
+// Of the incident flux, times the error: less than this is not followed sheet by sheet.
+inline constexpr float kLeastCarried = 2e-4f;
+
+class LightSheets {
+ public:
+  LightSheets(const Scene& scene, const RayScene& rays, const RayMeshSettings& settings);
+
+  // The sheets at the casters' own triangles.
+  std::vector<Sheet> firstSheets();
+
+  // Follows sheets whose paths are traced up to where they stand, until they land. What lands is appended to
+  // `landed`, in an order that does not depend on the number of threads.
+  void follow(std::vector<Sheet> sheets, std::vector<Sheet>& landed, Progress& progress);
+
+  // Cuts each of the sheets in four; the parts stand where the sheets stood, with their paths traced.
+  void cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts);
+
+  // Divides sheets that landed where finer ones beside them have corners. The whole light stays the same.
+  void conform(std::vector<Sheet>& landed) const;
+
+  vec3 carried(const Sheet& sheet) const {
+    return sheet.flux *
+           (tree.nodes[sheet.node[0]].transmittance + tree.nodes[sheet.node[1]].transmittance +
+            tree.nodes[sheet.node[2]].transmittance) /
+           3.0f;
+  }
+  std::size_t bytes() const;
+
+  PathTree tree;
+  RayMeshStats stats;
+
+ private:
+  struct Ask {
+    uint32_t corner = 0;
+    uint64_t path = 0;
+    uint8_t generation = 0;
+    uint32_t node = kNone;  // what is found: where the path stands, or where it ended before
+  };
+  struct NewCorner {
+    uint16_t light = 0;
+    uint32_t triangle = 0;
+    vec2 weights{0};
+  };
+  struct SideCut;
+
+  uint32_t addCorner(const NewCorner& corner);
+  void settleCorners();
+  void reach(std::vector<Ask>& asks);
+  uint32_t middleOf(const Sheet& sheet, int side) const;
+  void addConforming(const Sheet& sheet, std::vector<Sheet>& conforming) const;
+  vec3 fluxOf(const Sheet& sheet) const;
+  void setFluxes(std::span<Sheet> sheets) const;
+  void expand(std::span<const Sheet> sheets, std::vector<Sheet>& next);
+  void prune(std::vector<Sheet>& sheets);
+  void chooseAmongWeak(std::vector<Sheet>& children);
+  void part(std::span<const Sheet> mixed, std::vector<Sheet>& next);
+  void clip(std::span<const Sheet> mixed, std::vector<Sheet>& next);
+  void giveToOne(const Sheet& sheet, std::vector<Sheet>& next);
+  bool isElsewhere(const Sheet& sheet) const;
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const RayMeshSettings& settings_;
+  std::vector<CasterLight> lights_;
+  std::vector<FacetRims> rims_;  // of the meshes
+  std::vector<NewCorner> pending_;
+  std::vector<uint32_t> firstOfCorner_;  // node; kNone until it is settled
+  std::vector<EdgeTable> middles_;       // by light
+};
+
+}  // namespace nephroid

@@ -1,0 +1,36 @@
+// The media that paths are in, by number, so that a path keeps two bytes of them.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "trace/media.h"
+
+namespace nephroid {
+
+class MediaTable {
+ public:
+  explicit MediaTable(const RayScene& rayScene) : rays_(rayScene) {}
+
+  uint16_t numberOf(const MediumStack& stack);
+  uint32_t top(uint16_t medium) const { return tops_[medium]; }
+
+  // What a path is in before a boundary of `object` and beyond it. Light that leaves what it never entered,
+  // through an open mesh, was inside it all the same.
+  struct Sides {
+    uint16_t before = 0;
+    uint16_t beyond = 0;
+  };
+  Sides sidesOf(uint16_t medium, uint32_t object, bool entering);
+
+ private:
+  const RayScene& rays_;
+  std::vector<MediumStack> stacks_;
+  std::vector<uint32_t> tops_;
+  std::unordered_map<uint64_t, Sides> known_;
+  uint64_t lastKey_ = ~uint64_t{0};
+  Sides last_;
+};
+
+}  // namespace nephroid

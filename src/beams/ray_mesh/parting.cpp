@@ -1,0 +1,230 @@
+// Sheets of light parted where their paths part.
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "beams/ray_mesh/light_sheets.h"
+
+namespace nephroid {
+namespace {
+
+constexpr int kHalvings = 5;      // of a side, to where paths part
+constexpr uint8_t kMostCuts = 7;  // of a sheet, before it is parted along straight lines
+// Of the incident flux, times the error: sheets that carry more are cut before they are parted along straight
+// lines; and those that carry less are given to their corners.
+constexpr float kHeavy = 1e-2f, kLight = 3e-4f;
+
+struct SideKey {
+  uint64_t corners, path;
+  bool operator==(const SideKey&) const = default;
+};
+struct SideHash {
+  std::size_t operator()(const SideKey& key) const {
+    return std::size_t((key.corners * 0x9e3779b97f4a7c15u) ^ (key.path * 0xc2b2ae3d27d4eb4fu));
+  }
+};
+
+// What the transmittance at the border of total reflection, near which it rises as a power of the distance,
+// has to be taken for so that the mean of corners is right: from its value a little off the border, `near`,
+// and that of the side's other end.
+float borderTransmittance(float near, float far) {
+  constexpr float kPlaceOfNear = 0.5f / float(1 << kHalvings);
+  if (near <= 0 || far <= near) return near;
+  const float power = std::log(far / near) / -std::log(kPlaceOfNear);
+  return std::clamp(far * (2 / (1 + power) - 1), near, far);
+}
+
+// kLight, and more after many boundaries, past which light is spread out.
+float lightestParted(const Sheet& sheet) {
+  const int spread = std::clamp(int(sheet.generation) - 2, 0, 4);
+  return kLight * float(1 << (2 * spread));
+}
+
+}  // namespace
+
+// Where along a side, from the corner of the lower number, paths part; and the last paths of either way.
+struct LightSheets::SideCut {
+  uint32_t node[2];
+  float place[2] = {0, 1};
+  vec2 weights[2];
+  uint32_t triangle;
+  uint16_t light;
+  uint64_t path;
+  uint8_t generation;
+  uint32_t signature[2];
+  bool isAmongMore = false;  // a third way lies between the two
+  float middle() const { return 0.5f * (place[0] + place[1]); }
+};
+
+void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
+  if (mixed.empty()) return;
+  std::vector<Sheet> heavy, clipped;
+  const float unit = settings_.error * float(stats.incidentFlux);
+  for (const Sheet& sheet : mixed) {
+    float most = 0;
+    uint32_t signature[3];
+    for (int i = 0; i < 3; ++i) {
+      const PathNode& node = tree.nodes[sheet.node[i]];
+      signature[i] = node.signature;
+      if (node.state != PathState::dark && node.state != PathState::lost)
+        most = std::max(most, luminanceOf(sheet.flux * node.transmittance));
+    }
+    const float light = lightestParted(sheet);
+    const bool areTwo =
+        signature[0] == signature[1] || signature[1] == signature[2] || signature[2] == signature[0];
+    if (most <= light * unit) {
+      giveToOne(sheet, next);
+    } else if (sheet.cuts < kMostCuts && most > (areTwo ? kHeavy : 10 * light) * unit) {
+      heavy.push_back(sheet);
+    } else if (areTwo && sheet.cuts < kMostCuts + 2) {
+      clipped.push_back(sheet);
+    } else {
+      giveToOne(sheet, next);
+    }
+  }
+  cut(heavy, next);
+  clip(clipped, next);
+}
+
+// The path of one corner, at random, takes all of the light.
+void LightSheets::giveToOne(const Sheet& sheet, std::vector<Sheet>& next) {
+  const uint32_t lot =
+      (tree.nodes[sheet.node[0]].corner * 0x9e3779b9u ^ tree.nodes[sheet.node[1]].corner * 0x85ebca6bu ^
+       tree.nodes[sheet.node[2]].corner * 0xc2b2ae35u ^ sheet.generation * 0x27d4eb2fu);
+  const int corner = int(((lot ^ lot >> 15) * 0x2c1b3c6du >> 8) % 3);
+  const PathState state = tree.nodes[sheet.node[corner]].state;
+  if (state == PathState::dark || state == PathState::lost) return;
+  Sheet one = sheet;
+  one.cuts = kWhole;
+  const auto begin = [&](int i) {
+    return tree.nodes[firstOfCorner_[tree.nodes[sheet.node[i]].corner]].position;
+  };
+  // Light from a curved surface is the wider the more boundaries it has met.
+  one.bend = 0.5f * distance(begin((corner + 1) % 3), begin((corner + 2) % 3)) *
+             std::pow(2.0f, float(std::max(int(sheet.generation) - 1, 0)));
+  for (int j = 0; j < 3; ++j) {
+    one.node[j] = sheet.node[corner];
+    one.weights[j] = sheet.weights[corner];
+  }
+  next.push_back(one);
+}
+
+void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
+  if (mixed.empty()) return;
+  std::vector<SideCut> sides;
+  std::unordered_map<SideKey, uint32_t, SideHash> known;
+  struct Clipped {
+    int alone = 0;
+    uint32_t side[2];  // toward the corner after the one that is alone, and the one before
+    bool isTurned[2];  // whether the side begins at the other end
+  };
+  std::vector<Clipped> clipped(mixed.size());
+  for (std::size_t s = 0; s < mixed.size(); ++s) {
+    const Sheet& sheet = mixed[s];
+    const auto signatureAt = [&](int i) { return tree.nodes[sheet.node[i % 3]].signature; };
+    int alone = 0;
+    while (signatureAt(alone + 1) != signatureAt(alone + 2)) ++alone;
+    clipped[s].alone = alone;
+    for (int k = 0; k < 2; ++k) {
+      const int other = (alone + 1 + k) % 3;
+      const uint32_t a = tree.nodes[sheet.node[alone]].corner, b = tree.nodes[sheet.node[other]].corner;
+      const bool isTurned = b < a;
+      const SideKey key{isTurned ? uint64_t(b) << 32 | a : uint64_t(a) << 32 | b,
+                        sheet.path | uint64_t(sheet.generation) << 56};
+      const auto [found, isNew] = known.try_emplace(key, uint32_t(sides.size()));
+      clipped[s].side[k] = found->second;
+      clipped[s].isTurned[k] = isTurned;
+      if (!isNew) continue;
+      SideCut side{};
+      for (int end = 0; end < 2; ++end) {
+        const int corner = (end == 1) != isTurned ? other : alone;
+        side.node[end] = sheet.node[corner];
+        side.weights[end] = sheet.weights[corner];
+        side.signature[end] = signatureAt(corner);
+      }
+      side.place[0] = 0;
+      side.place[1] = 1;
+      side.triangle = sheet.triangle;
+      side.light = sheet.light;
+      side.path = sheet.path;
+      side.generation = sheet.generation;
+      sides.push_back(side);
+    }
+  }
+  std::vector<Ask> asks(sides.size());
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const SideCut& side = sides[i];
+      asks[i] = {addCorner({side.light, side.triangle, mix(side.weights[0], side.weights[1], side.middle())}),
+                 side.path, side.generation};
+    }
+    reach(asks);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      SideCut& side = sides[i];
+      const uint32_t signature = tree.nodes[asks[i].node].signature;
+      const int end = signature == side.signature[0] ? 0 : 1;
+      side.place[end] = side.middle();
+      if (signature == side.signature[end]) {
+        side.node[end] = asks[i].node;
+      } else {
+        side.isAmongMore = true;
+      }
+    }
+  }
+  std::vector<Sheet> chaotic;
+  for (std::size_t s = 0; s < mixed.size(); ++s) {
+    const Sheet& whole = mixed[s];
+    const Clipped& how = clipped[s];
+    if (sides[how.side[0]].isAmongMore || sides[how.side[1]].isAmongMore) {
+      if (whole.cuts < kMostCuts && luminanceOf(carried(whole)) > 10 * lightestParted(whole) *
+                                                                      settings_.error *
+                                                                      float(stats.incidentFlux)) {
+        chaotic.push_back(whole);
+      } else {
+        giveToOne(whole, next);
+      }
+      continue;
+    }
+    uint32_t own[2], others[2];
+    float ownGain[2], othersGain[2];
+    vec2 border[2];
+    for (int k = 0; k < 2; ++k) {
+      const SideCut& side = sides[how.side[k]];
+      const int ownEnd = how.isTurned[k] ? 1 : 0;
+      own[k] = side.node[ownEnd];
+      others[k] = side.node[1 - ownEnd];
+      const float place = how.isTurned[k] ? 1 - side.middle() : side.middle();
+      const auto gain = [&](uint32_t near, uint32_t far, uint32_t beyond) {
+        if (tree.nodes[beyond].state != PathState::lost) return 0.0f;
+        const float atNear = luminanceOf(tree.nodes[near].transmittance);
+        return borderTransmittance(atNear, luminanceOf(tree.nodes[far].transmittance)) - atNear;
+      };
+      const uint32_t far = whole.node[how.alone], other = whole.node[(how.alone + 1 + k) % 3];
+      ownGain[k] = gain(own[k], far, other);
+      othersGain[k] = gain(others[k], other, far);
+      border[k] = mix(whole.weights[how.alone], whole.weights[(how.alone + 1 + k) % 3], place);
+    }
+    const int x = how.alone, y = (x + 1) % 3, z = (x + 2) % 3;
+    const auto add = [&](std::array<uint32_t, 3> nodes, std::array<vec2, 3> weights, float gain) {
+      Sheet sheet = whole;
+      sheet.cuts = uint8_t(whole.cuts + 1);
+      for (int i = 0; i < 3; ++i) {
+        sheet.node[i] = nodes[i];
+        sheet.weights[i] = weights[i];
+      }
+      float sum = 0;
+      for (const uint32_t node : nodes) sum += luminanceOf(tree.nodes[node].transmittance);
+      if (gain > 0 && sum > 0) sheet.gain *= 1 + gain / sum;
+      sheet.flux = fluxOf(sheet);
+      if (sheet.flux.x + sheet.flux.y + sheet.flux.z > 0) next.push_back(sheet);
+    };
+    add({whole.node[x], own[0], own[1]}, {whole.weights[x], border[0], border[1]}, ownGain[0] + ownGain[1]);
+    add({others[0], whole.node[y], whole.node[z]}, {border[0], whole.weights[y], whole.weights[z]},
+        othersGain[0]);
+    add({others[0], whole.node[z], others[1]}, {border[0], whole.weights[z], border[1]},
+        othersGain[0] + othersGain[1]);
+  }
+  cut(chaotic, next);
+}
+
+}  // namespace nephroid

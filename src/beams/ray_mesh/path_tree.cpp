@@ -1,0 +1,209 @@
+#include "beams/ray_mesh/path_tree.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <array>
+
+#include "core/index_range.h"
+#include "scene/air.h"
+#include "scene/volume.h"
+#include "transport/crossing.h"
+#include "transport/outgoing_ray.h"
+
+namespace nephroid {
+namespace {
+
+constexpr std::size_t kBatch = 128;  // rays_ that are handed to the tracer together
+
+bool entersAt(const PathNode& node) {
+  return dot(node.direction, node.geometricNormal) < 0;
+}
+
+// `tellsSurface`: whether light that lands on another surface went another way.
+uint32_t signatureOf(uint32_t before, const PathNode& node, bool tellsSurface = false) {
+  uint32_t signature = before;
+  const bool isAtCaster = node.state == PathState::atCaster;
+  const bool tellsObject = isAtCaster || node.state == PathState::arrived;
+  for (const uint32_t word :
+       {uint32_t(node.state), tellsObject ? node.object : 0, isAtCaster || tellsSurface ? node.patch : 0,
+        uint32_t(isAtCaster && entersAt(node))})
+    signature = (signature ^ (word + 0x9e3779b9u)) * 16777619u;  // FNV-1a, a word at a time
+  return signature;
+}
+
+}  // namespace
+
+PathTree::PathTree(const Scene& sceneOf, const RayScene& rayScene, Paths pathsOf, const PathTarget& targetOf)
+
+    : scene_(sceneOf),
+      rays_(rayScene),
+      paths_(pathsOf),
+      target_(targetOf),
+      materials_(materialsOf(sceneOf)),
+      mediaTable_(rayScene) {
+  constexpr std::size_t kFewTriangles = 128;
+  for (const Object& object : sceneOf.objects)
+    hasFewFaces_.push_back(sceneOf.meshOf(object).triangles.size() <= kFewTriangles);
+}
+
+uint32_t PathTree::waysFrom(const PathNode& node) const {
+  const Material& material = *materials_[node.object];
+  if (material.type == MaterialType::mirror) return 1u << kReflected;
+  if (material.thinWalled || paths_ == Paths::transmission) return 1u << kTransmitted;
+  // Inside another object, which fills this place, there is no boundary.
+  if (mediaTable_.top(node.before) == mediaTable_.top(node.beyond)) return 1u << kTransmitted;
+  return 1u << kTransmitted | 1u << kReflected;
+}
+
+uint32_t PathTree::childOf(uint32_t parent, uint8_t way, std::vector<uint32_t>& fresh) {
+  const PathNode& from = nodes[parent];
+  if (from.child[way] != kNone) return from.child[way];
+  const uint32_t index = uint32_t(nodes.size());
+  PathNode node;
+  node.parent = parent;
+  node.corner = from.corner;
+  node.channel = from.channel;
+  node.generation = uint8_t(from.generation + 1);
+  node.way = way;
+  node.medium = way == kTransmitted ? from.beyond : from.before;
+  nodes[parent].child[way] = index;
+  nodes.push_back(node);
+  fresh.push_back(index);
+  return index;
+}
+
+void PathTree::setSides(PathNode& node) {
+  const Material& material = *materials_[node.object];
+  node.before = node.beyond = node.medium;
+  if (material.type != MaterialType::dielectric || material.thinWalled) return;
+  const MediaTable::Sides sides = mediaTable_.sidesOf(node.medium, node.object, entersAt(node));
+  node.before = sides.before;
+  node.beyond = sides.beyond;
+}
+
+uint32_t PathTree::addFirst(const PathNode& node) {
+  nodes.push_back(node);
+  PathNode& first = nodes.back();
+  setSides(first);
+  first.signature = signatureOf(0, first);
+  const uint32_t medium = mediaTable_.top(first.medium);
+  if (medium != kNone) first.transmittance *= transmittanceOf(*materials_[medium], first.length);
+  return uint32_t(nodes.size() - 1);
+}
+
+void PathTree::bendOne(PathNode& node) const {
+  const PathNode& from = nodes[node.parent];
+  const Material& material = *materials_[from.object];
+  const vec3 normal = facingNormal(from.direction, from.normal, from.geometricNormal);
+  node.direction = from.direction;
+  node.transmittance = from.transmittance;
+  if (material.type == MaterialType::mirror) {
+    node.direction = reflectDirection(from.direction, normal);
+    node.transmittance *= material.color;
+    return;
+  }
+  if (material.thinWalled) {
+    node.transmittance *= thinWallTransmittance(material, node.channel, from.direction, normal);
+    return;
+  }
+  const uint32_t before = mediaTable_.top(from.before), beyond = mediaTable_.top(from.beyond);
+  if (before == beyond) return;
+  const float eta = iorOf(materials_, before, node.channel) / iorOf(materials_, beyond, node.channel);
+  const float reflectance = fresnelReflectance(std::min(1.0f, -dot(from.direction, normal)), eta);
+  if (node.way == kReflected) {
+    node.direction = reflectDirection(from.direction, normal);
+    node.transmittance *= reflectance;
+    return;
+  }
+  vec3 transmitted;
+  const bool isTransmitted = refractDirection(from.direction, normal, eta, transmitted);
+  node.direction = transmitted;
+  node.transmittance *= isTransmitted ? 1 - reflectance : 0;
+  if (!isTransmitted) {
+    node.state = PathState::lost;
+    node.signature = signatureOf(from.signature, node);
+  }
+}
+
+void PathTree::bend(std::span<const uint32_t> fresh) {
+  oneapi::tbb::parallel_for(IndexRange(0, fresh.size(), 512), [&](const IndexRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) bendOne(nodes[fresh[i]]);
+  });
+}
+
+// What is left of light after `length` of the medium that a path is in.
+vec3 PathTree::leftAfter(uint16_t medium, vec3 start, vec3 direction, float length) const {
+  const uint32_t object = mediaTable_.top(medium);
+  if (object != kNone) return transmittanceOf(*materials_[object], length);
+  return vec3(scene_.medium ? std::exp(-opticalDepth(*scene_.medium, start, direction, length)) : 1.0f);
+}
+
+void PathTree::finish(PathNode& node, const Ray& ray, const Hit& hit) const {
+  node.object = hit.object;
+  node.length = hit.object == kNone ? kUnboundedReach : hit.distance;
+  if (hit.object != kNone && materials_[hit.object]->isCaster()) {
+    node.position = hit.position;
+    node.flatPosition = hit.flatPosition;
+    node.normal = hit.normal;
+    node.geometricNormal = hit.geometricNormal;
+    node.patch = hit.patch;
+    node.transmittance *= leftAfter(node.medium, ray.origin, ray.direction, hit.distance);
+    node.state = node.generation < kMaximumCrossings ? PathState::atCaster : PathState::lost;
+    return;
+  }
+  const uint32_t medium = mediaTable_.top(node.medium);
+  const bool leaked = hit.object == kNone && medium != kNone && rays_.isClosed(medium);
+  node.state = PathState::missed;
+  if (leaked) {
+    node.state = PathState::lost;
+  } else if (target_.isPlane) {
+    vec2 texel;
+    float distance;
+    const vec3 start = nodes[node.parent].position;
+    if (!meetPlane(start, ray.direction, target_.plane, texel, distance)) return;
+    if (node.length < distance * (1 - 1e-3f) - 1e-4f) return;
+    node.position = start + distance * ray.direction;
+    node.transmittance *= leftAfter(node.medium, start, ray.direction, distance);
+    node.object = 0;
+    node.state = PathState::arrived;
+  } else if (hit.object != kNone) {
+    node.position = hit.position;
+    node.patch = hit.patch;
+    node.normal = hit.normal;
+    node.geometricNormal = hit.geometricNormal;
+    node.transmittance *= leftAfter(node.medium, ray.origin, ray.direction, hit.distance);
+    node.state = PathState::arrived;
+  }
+}
+
+void PathTree::trace(std::span<const uint32_t> bent) {
+  oneapi::tbb::parallel_for(IndexRange(0, bent.size(), kBatch), [&](const IndexRange& range) {
+    std::array<Ray, kBatch> batch;
+    std::array<Hit, kBatch> hits;
+    for (std::size_t first = range.begin(); first < range.end(); first += kBatch) {
+      const std::size_t count = std::min(kBatch, range.end() - first);
+      for (std::size_t i = 0; i < count; ++i) {
+        const PathNode& node = nodes[bent[first + i]];
+        const PathNode& from = nodes[node.parent];
+        Hit start;
+        start.position = from.position;
+        start.flatPosition = from.flatPosition;
+        start.geometricNormal = from.geometricNormal;
+        batch[i] = rays_.leaving(start, node.direction);
+      }
+      rays_.intersect(std::span<const Ray>(batch.data(), count), std::span<Hit>(hits.data(), count));
+      for (std::size_t i = 0; i < count; ++i) {
+        PathNode& node = nodes[bent[first + i]];
+        finish(node, batch[i], hits[i]);
+        const bool tellsSurface =
+            node.state == PathState::arrived && !target_.isPlane && hasFewFaces_[node.object];
+        node.signature = signatureOf(nodes[node.parent].signature, node, tellsSurface);
+      }
+    }
+  });
+  raysTraced += bent.size();
+  for (const uint32_t index : bent)
+    if (nodes[index].state == PathState::atCaster) setSides(nodes[index]);
+}
+
+}  // namespace nephroid

@@ -1,0 +1,360 @@
+#include "beams/ray_mesh/ray_mesh.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "beams/ray_mesh/light_sheets.h"
+#include "core/index_range.h"
+
+namespace nephroid {
+namespace {
+
+constexpr int kMostLevels = 16;
+// A sheet whose corners differ more than this in density is taken to have one density alone.
+constexpr float kSteep = 2.5f;
+// Of the detail that a receiver's point shows: light that is no more off is where it should be.
+constexpr float kUnseen = 0.3f, kUnseenInFold = 1;
+// Times the mean of what is lit, light is focused.
+constexpr double kFocus = 8;
+// Of the size of what is lit, the most that one path stands for.
+constexpr float kWidestPath = 1.0f / 8;
+// Of the mean of what is lit, the brightest that one path may be, so that it is not seen as a speck.
+constexpr float kBrightestPath = 0.02f;
+// Area of a triangle whose corners are 1 off its middle.
+constexpr double kTangentArea = 1.299;
+
+// What a sheet leaves where it lands.
+struct Landing {
+  vec3 flux{0};             // lm
+  float luminance = 0;      // lm
+  float area = 0;           // m2
+  float width = 0;          // m, across its longest side
+  float longest = 0;        // m
+  float detail = 0;         // m, of a receiver's point there
+  bool isMirrored = false;  // its corners have changed sides: light is past an odd number of folds
+  bool isWanted = true;
+};
+
+// About a node: of the sheets of one way that meet there.
+struct Around {
+  float flux = 0;      // lm
+  float incident = 0;  // lm, before any boundary took of it
+  float area = 0;      // m2
+  uint8_t sides = 0;   // bit 0: some are not mirrored; bit 1: some are
+  float density() const { return area > 0 ? flux / area : 0; }
+  float bundling() const { return area > 0 ? incident / area : 0; }
+  bool isFold() const { return sides == 3; }
+};
+
+class Refinement {
+ public:
+  Refinement(LightSheets& sheetsOf, const RayMeshSettings& settingsOf)
+      : sheets_(sheetsOf), settings_(settingsOf) {}
+
+  void run(std::vector<Sheet>& landed, Progress& progress) {
+    for (int level = 0;; ++level) {
+      progress.advance();
+      describe(landed);
+      if (level == 0) allowed_ = allowedSquares();
+      const double squares = judge(landed);
+      if (allowed_ > 0)
+        sheets_.stats.error =
+            std::sqrt((squares + singlePathSquares(landed)) / allowed_) * double(settings_.error);
+      if (squares <= allowed_ || level == kMostLevels || isFull(landed)) return;
+      if (!cutWorst(landed, squares, progress)) return;
+    }
+  }
+
+  void describeAnew(const std::vector<Sheet>& landed) {
+    landings_.clear();
+    describe(landed);
+  }
+  void emit(const std::vector<Sheet>& landed, RayMesh& mesh) const;
+
+ private:
+  void describe(const std::vector<Sheet>& landed);
+  Landing landingOf(const Sheet& sheet) const;
+  double allowedSquares();
+  double judge(const std::vector<Sheet>& landed);
+  double errorSquares(const Sheet& sheet, const Landing& landing) const;
+  float steepness(const Sheet& sheet, const Landing& landing) const;
+  double singlePathSquares(const std::vector<Sheet>& landed) const;
+  float pathRadius(const Sheet& sheet, const Landing& landing) const;
+  bool cutWorst(std::vector<Sheet>& landed, double squares, Progress& progress);
+  bool isFull(const std::vector<Sheet>& landed) {
+    sheets_.stats.isBounded = landed.size() > settings_.mostBeams || sheets_.bytes() > settings_.mostBytes;
+    return sheets_.stats.isBounded;
+  }
+
+  LightSheets& sheets_;
+  const RayMeshSettings& settings_;
+  std::vector<Landing> landings_;
+  std::vector<Around> around_;  // by node
+  float litArea_ = 0;           // m2
+  double mean_ = 0;             // lm/m2
+  double allowed_ = 0;          // as allowedSquares
+  std::vector<double> errors_;  // squared, times m2
+};
+
+Landing Refinement::landingOf(const Sheet& sheet) const {
+  const std::vector<PathNode>& nodes = sheets_.tree.nodes;
+  const PathNode &a = nodes[sheet.node[0]], &b = nodes[sheet.node[1]], &c = nodes[sheet.node[2]];
+  Landing landing;
+  landing.flux = sheets_.carried(sheet);
+  landing.luminance = luminanceOf(landing.flux);
+  const vec3 across = cross(b.position - a.position, c.position - a.position);
+  const float doubled = length(across);
+  landing.area = 0.5f * doubled;
+  landing.longest = std::max(
+      {distance(a.position, b.position), distance(b.position, c.position), distance(c.position, a.position)});
+  landing.width = landing.longest > 0 ? doubled / landing.longest : 0;
+  landing.detail = std::clamp(settings_.detailPerMeter * distance(a.position, settings_.eye),
+                              settings_.detail, std::max(settings_.mostDetail, settings_.detail));
+  landing.isMirrored = dot(across, a.direction) < 0;
+  if (settings_.target.isPlane) {
+    const PlaneGrid& grid = settings_.target.plane;
+    vec2 low(std::numeric_limits<float>::infinity()), high(-low);
+    for (const PathNode* node : {&a, &b, &c}) {
+      const vec3 offset = node->position - grid.corner;
+      const vec2 texel(dot(offset, grid.axisU), dot(offset, grid.axisV));
+      low = min(low, texel);
+      high = max(high, texel);
+    }
+    landing.isWanted = glm::all(glm::lessThan(low, settings_.wantedHigh)) &&
+                       glm::all(glm::greaterThan(high, settings_.wantedLow));
+  }
+  return landing;
+}
+
+void Refinement::describe(const std::vector<Sheet>& landed) {
+  const std::size_t known = landings_.size();
+  landings_.resize(landed.size());
+  oneapi::tbb::parallel_for(IndexRange(known, landed.size(), 512), [&](const IndexRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) landings_[i] = landingOf(landed[i]);
+  });
+  around_.assign(sheets_.tree.nodes.size(), {});
+  for (std::size_t i = 0; i < landed.size(); ++i)
+    if (landed[i].cuts != kWhole)
+      for (const uint32_t node : landed[i].node) {
+        around_[node].flux += landings_[i].luminance;
+        around_[node].incident += luminanceOf(landed[i].flux);
+        around_[node].area += landings_[i].area;
+        around_[node].sides |= landings_[i].isMirrored ? 2 : 1;
+      }
+}
+
+// What the squares of the error, times the areas where they are made, may add up to: (lm/m2)^2 m2.
+double Refinement::allowedSquares() {
+  double flux = 0;
+  for (const Landing& landing : landings_)
+    if (landing.isWanted) flux += double(landing.luminance);
+  double area = double(settings_.area);
+  if (area <= 0) {
+    std::vector<std::pair<float, uint32_t>> order;
+    for (uint32_t i = 0; i < landings_.size(); ++i)
+      order.emplace_back(
+          -landings_[i].luminance / std::max(landings_[i].area, landings_[i].detail * landings_[i].detail),
+          i);
+    std::ranges::sort(order);
+    double sum = 0;
+    for (const auto& [density, i] : order) {
+      area += double(landings_[i].area);
+      if ((sum += double(landings_[i].luminance)) > 0.9 * flux) break;
+    }
+  }
+  litArea_ = float(area);
+  mean_ = flux / std::max(area, 1e-30);
+  return std::pow(double(settings_.error) * mean_, 2) * area;
+}
+
+// By how much the density of the light changes across a sheet, over its mean; a fold has no density.
+float Refinement::steepness(const Sheet& sheet, const Landing& landing) const {
+  const float own = luminanceOf(sheet.flux) / std::max(landing.area, 1e-30f);
+  float least = own, most = own;
+  for (const uint32_t node : sheet.node) {
+    if (around_[node].isFold()) return kSteep;
+    const float density = around_[node].bundling();
+    least = std::min(least, density);
+    most = std::max(most, density);
+  }
+  return std::min(least > 0 ? most / least - 1 : kSteep, kSteep);
+}
+
+double Refinement::errorSquares(const Sheet& sheet, const Landing& landing) const {
+  if (sheet.cuts == kWhole || !landing.isWanted) return 0;
+  const float detail = landing.detail;
+  const float steep = steepness(sheet, landing);
+  // m that a side's middle lands off the middle of its ends.
+  const float seen = std::min(sheet.bend, 0.125f * steep * landing.longest) -
+                     (steep < kSteep ? kUnseen : kUnseenInFold) * detail;
+  const float bend = std::max(seen, 0.0f);
+  const float width = landing.width + detail;
+  const float off = bend / width;
+  const bool isSmooth = steep < kSteep;
+  const float relative = std::min(1.0f, (isSmooth ? 16 * off * off : 2.5f * off) + off * detail / width);
+  const float area = landing.area + detail * landing.longest + detail * detail;
+  // Where light is focused, it may be off by a part of itself.
+  const double density = std::min(double(landing.luminance) / double(area), kFocus * mean_);
+  return std::pow(density * double(relative), 2) * double(area);
+}
+
+double Refinement::judge(const std::vector<Sheet>& landed) {
+  errors_.resize(landed.size());
+  oneapi::tbb::parallel_for(IndexRange(0, landed.size(), 512), [&](const IndexRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      errors_[i] = errorSquares(landed[i], landings_[i]);
+  });
+  double sum = 0;
+  for (const double error : errors_) sum += error;
+  return sum;
+}
+
+// Cuts those that make the most of the error, so that the others make a third of what is allowed.
+bool Refinement::cutWorst(std::vector<Sheet>& landed, double squares, Progress& progress) {
+  constexpr int kBuckets = 512;
+  constexpr double kBucketsAnOctave = 4;
+  const auto bucketOf = [&](double error) {
+    return int(glm::clamp(std::log2(squares / error) * kBucketsAnOctave, 0.0, double(kBuckets - 1)));
+  };
+  double inBucket[kBuckets] = {};
+  for (const double error : errors_)
+    if (error > 0) inBucket[bucketOf(error)] += error;
+  double left = 0.33 * allowed_;
+  int last = kBuckets;  // the first that is left as it is
+  while (last > 1 && left >= inBucket[last - 1]) left -= inBucket[--last];
+  std::vector<Sheet> worst, parts;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < landed.size(); ++i) {
+    if (errors_[i] > 0 && bucketOf(errors_[i]) < last) {
+      worst.push_back(landed[i]);
+    } else {
+      landings_[kept] = landings_[i];
+      landed[kept++] = landed[i];
+    }
+  }
+  landed.resize(kept);
+  landings_.resize(kept);
+  if (worst.empty()) return false;
+  sheets_.cut(worst, parts);
+  sheets_.follow(std::move(parts), landed, progress);
+  return true;
+}
+
+// Unit, on the side of the receiver that the path's light lands on.
+vec3 litNormal(const PathNode& node) {
+  return dot(node.direction, node.geometricNormal) < 0 ? node.geometricNormal : -node.geometricNormal;
+}
+
+// m about its path's end, over which a single path's light is spread.
+float Refinement::pathRadius(const Sheet& sheet, const Landing& landing) const {
+  const float faint = std::sqrt(landing.luminance / (kBrightestPath * std::max(float(mean_), 1e-30f)));
+  const float widest = kWidestPath * std::sqrt(litArea_);
+  return std::clamp(std::max(sheet.bend, faint), landing.detail, std::max(widest, landing.detail));
+}
+
+// Single paths are chosen at random, each for all light about it: what they vary by, as errorSquares.
+double Refinement::singlePathSquares(const std::vector<Sheet>& landed) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < landed.size(); ++i) {
+    if (landed[i].cuts != kWhole || !landings_[i].isWanted) continue;
+    const double radius = double(pathRadius(landed[i], landings_[i]));
+    sum += std::pow(double(landings_[i].luminance), 2) / (kTangentArea * radius * radius);
+  }
+  return sum;
+}
+
+// Corners of a triangle about a point, each `radius` off.
+mat3 tangentFrame(vec3 normal, float radius) {
+  const vec3 aside = std::abs(normal.x) < 0.6f ? vec3(1, 0, 0) : vec3(0, 1, 0);
+  const vec3 u = normalize(cross(normal, aside)), v = cross(normal, u);
+  return {radius * u, radius * (-0.5f * u + 0.866f * v), radius * (-0.5f * u - 0.866f * v)};
+}
+
+void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) const {
+  mesh.beams.reserve(landed.size());
+  for (std::size_t i = 0; i < landed.size(); ++i) {
+    const Landing& landing = landings_[i];
+    if (!landing.isWanted) continue;
+    const Sheet& sheet = landed[i];
+    LandedBeam beam;
+    beam.flux = landing.flux;
+    beam.width = landing.width;
+    beam.detail = landing.detail;
+    beam.isPath = sheet.cuts == kWhole;
+    const PathNode& first = sheets_.tree.nodes[sheet.node[0]];
+    const vec3 normal = settings_.target.isPlane ? settings_.target.plane.normal : first.geometricNormal;
+    const float radius = pathRadius(sheet, landing);
+    const mat3 tangent = tangentFrame(normal, radius);
+    if (beam.isPath) {
+      beam.width = 1.5f * radius;
+      ++mesh.stats.singlePaths;
+    }
+    const bool isSmooth = sheet.cuts != kWhole && steepness(sheet, landing) < kSteep;
+    vec3 density(1);
+    beam.object = first.object;
+    beam.leastNormal = beam.mostNormal = litNormal(first);
+    for (int c = 0; c < 3; ++c) {
+      const PathNode& node = sheets_.tree.nodes[sheet.node[c]];
+      beam.corner[c] = node.position;
+      beam.leastNormal = min(beam.leastNormal, litNormal(node));
+      beam.mostNormal = max(beam.mostNormal, litNormal(node));
+      if (sheet.cuts == kWhole) beam.corner[c] += tangent[c];
+      beam.node[c] = sheet.node[c];
+      if (isSmooth) density[c] = around_[sheet.node[c]].density();
+    }
+    beam.density = isSmooth ? 3.0f * density / (density.x + density.y + density.z) : vec3(1);
+    mesh.beams.push_back(beam);
+    mesh.stats.landedFlux += double(landing.luminance);
+    ++mesh.stats.beamsByLevel[std::min<std::size_t>(sheet.cuts, kToldLevels - 1)];
+    ++mesh.stats.beamsByBranch[std::min<std::size_t>(sheet.generation, kToldLevels - 1)];
+  }
+}
+
+class Clock {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double milliseconds = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return milliseconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSettings& settings,
+                  Progress& progress, RayMesh& mesh) {
+  Clock clock;
+  progress.begin("beams", 0);
+  LightSheets sheets(scene, rays, settings);
+  sheets.tree.nodes = std::move(mesh.nodes);
+  sheets.tree.nodes.clear();
+  mesh.beams.clear();
+  std::vector<Sheet> landed;
+  std::vector<Sheet> first = sheets.firstSheets();
+  const double firstMilliseconds = clock.lap();
+  sheets.follow(std::move(first), landed, progress);
+  const double followMilliseconds = clock.lap();
+  Refinement refinement(sheets, settings);
+  refinement.run(landed, progress);
+  sheets.conform(landed);
+  refinement.describeAnew(landed);
+  const double refineMilliseconds = clock.lap();
+  mesh.stats = sheets.stats;
+  refinement.emit(landed, mesh);
+  mesh.stats.rays = sheets.tree.raysTraced;
+  mesh.stats.bytes = sheets.bytes();
+  mesh.nodes = std::move(sheets.tree.nodes);
+  mesh.stats.milliseconds = {{"first", firstMilliseconds},
+                             {"follow", followMilliseconds},
+                             {"refine", refineMilliseconds},
+                             {"emit", clock.lap()}};
+}
+
+}  // namespace nephroid
