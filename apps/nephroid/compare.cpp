@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iostream>
 #include <memory>
 
 #include "command.h"
@@ -90,10 +91,28 @@ ReferenceResult refineReference(const CompareJob& job, Estimate& estimate, const
           referenceAttributes(estimate, written)};
 }
 
-SideBySide compareView(const CompareJob& job) {
+// Draws the camera's picture by each of `techniques`, and takes those out that cannot draw it here: with all
+// paths, some need more memory than there is. Throws where none is left.
+std::vector<TechniqueResult> drawTechniques(const CompareJob& job, std::vector<std::string>& techniques) {
+  std::vector<TechniqueResult> results;
+  std::vector<std::string> drawn;
+  for (const std::string& technique : techniques) {
+    try {
+      results.push_back(drawTechnique(job, technique));
+      drawn.push_back(technique);
+    } catch (const RuntimeFailure& failure) {
+      if (techniques.size() == 1) throw;
+      std::cerr << "nephroid: warning: " << technique << " is left out: " << failure.what() << '\n';
+    }
+  }
+  if (drawn.empty()) throw RuntimeFailure("no technique could draw the scene");
+  techniques = drawn;
+  return results;
+}
+
+SideBySide compareView(const CompareJob& job, std::vector<TechniqueResult> drawn) {
   SideBySide view;
-  for (const std::string& technique : job.options.techniques)
-    view.techniques.push_back(drawTechnique(job, technique));
+  view.techniques = std::move(drawn);
   view.seesReceiver = seesReceiver(job.scene, job.rays, job.options.size);
   const ReferenceSettings settings =
       referenceSettings(job.options.reference, job.options.picture, job.options.size);
@@ -128,7 +147,7 @@ std::vector<LeftOut> leftOutOf(const CompareOptions& options, const Scene& scene
   return all;
 }
 
-void runCompare(const CompareOptions& options) {
+void runCompare(CompareOptions options) {
   checkReportFolder(options.output);
   Progress progress(progressDisplay(options.isQuiet));
   const Scene scene = loadScene(options.scene, options.time);
@@ -148,8 +167,9 @@ void runCompare(const CompareOptions& options) {
   comparison.techniquePaths = nameOf(options.picture.technique.transport.paths);
   comparison.spectrum = reference.spectrum == Spectrum::channels ? "channels" : "continuous";
   comparison.photons = reference.photons;
+  std::vector<TechniqueResult> drawn = drawTechniques(job, options.techniques);
   comparison.leftOut = leftOutOf(options, scene);
-  comparison.view = compareView(job);
+  comparison.view = compareView(job, std::move(drawn));
   for (const Sensor& sensor : scene.sensors) comparison.sensors.push_back(compareSensor(job, sensor));
   writeReport(options.output, comparison);
 }

@@ -133,7 +133,7 @@ void LightSheets::setFluxes(std::span<Sheet> sheets) const {
 std::vector<Sheet> LightSheets::firstSheets() {
   std::vector<Sheet> sheets, forced[kMaximumForcedCuts + 1];
   std::vector<uint32_t> cornerOf;
-  for (uint16_t index = 0; index < lights_.size(); ++index) {
+  for (uint32_t index = 0; index < uint32_t(lights_.size()); ++index) {
     const Object& object = scene_.objects[lights_[index].object];
     const Mesh& mesh = scene_.meshOf(object);
     const float extent = boundingBox(mesh).diagonal();

@@ -26,7 +26,7 @@ struct Sheet {
   float bend = kUnknownBend;
   uint64_t path = 0;   // bit i: reflected at boundary i
   uint64_t aside = 0;  // bit i: not the first of the ways at boundary i
-  uint16_t light = 0;
+  uint32_t light = 0;
   uint8_t generation = 0;  // boundaries that it has passed
   uint8_t cuts = 0;
 };
@@ -72,7 +72,7 @@ class LightSheets {
     uint32_t node = kNone;  // what is found: where the path stands, or where it ended before
   };
   struct NewCorner {
-    uint16_t light = 0;
+    uint32_t light = 0;
     uint32_t triangle = 0;
     vec2 weights{0};
   };

@@ -48,7 +48,7 @@ struct LightSheets::SideCut {
   float place[2] = {0, 1};
   vec2 weights[2];
   uint32_t triangle;
-  uint16_t light;
+  uint32_t light;
   uint64_t path;
   uint8_t generation;
   uint32_t signature[2];
@@ -72,11 +72,10 @@ void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
     const float light = lightestParted(sheet);
     const bool areTwo =
         signature[0] == signature[1] || signature[1] == signature[2] || signature[2] == signature[0];
-    if (most <= light * unit) {
-      giveToOne(sheet, next);
-    } else if (sheet.cuts < kMostCuts && most > (areTwo ? kHeavy : 10 * light) * unit) {
+    const bool isHeavy = sheet.cuts < kMostCuts && most > (areTwo ? kHeavy : 10 * light) * unit;
+    if (most > light * unit && isHeavy) {
       heavy.push_back(sheet);
-    } else if (areTwo && sheet.cuts < kMostCuts + 2) {
+    } else if (most > light * unit && areTwo && sheet.cuts < kMostCuts + 2) {
       clipped.push_back(sheet);
     } else {
       giveToOne(sheet, next);

@@ -85,8 +85,9 @@ class Refinement {
   float pathRadius(const Sheet& sheet, const Landing& landing) const;
   bool cutWorst(std::vector<Sheet>& landed, double squares, Progress& progress);
   bool isFull(const std::vector<Sheet>& landed) {
-    sheets_.stats.isBounded = landed.size() > settings_.mostBeams || sheets_.bytes() > settings_.mostBytes;
-    return sheets_.stats.isBounded;
+    bool& isBounded = sheets_.stats.isBounded;
+    isBounded = isBounded || landed.size() >= settings_.mostBeams || sheets_.bytes() > settings_.mostBytes;
+    return isBounded;
   }
 
   LightSheets& sheets_;
@@ -220,11 +221,25 @@ bool Refinement::cutWorst(std::vector<Sheet>& landed, double squares, Progress& 
     return int(glm::clamp(std::log2(squares / error) * kBucketsAnOctave, 0.0, double(kBuckets - 1)));
   };
   double inBucket[kBuckets] = {};
+  std::size_t countInBucket[kBuckets] = {};
   for (const double error : errors_)
-    if (error > 0) inBucket[bucketOf(error)] += error;
+    if (error > 0) {
+      const int bucket = bucketOf(error);
+      inBucket[bucket] += error;
+      ++countInBucket[bucket];
+    }
   double left = 0.33 * allowed_;
   int last = kBuckets;  // the first that is left as it is
   while (last > 1 && left >= inBucket[last - 1]) left -= inBucket[--last];
+  // Each that is cut adds three.
+  std::size_t room = (settings_.mostBeams - std::min<uint64_t>(landed.size(), settings_.mostBeams)) / 3 + 1;
+  for (int bucket = 0; bucket < last; ++bucket) {
+    if (countInBucket[bucket] > room && bucket > 0) {
+      last = bucket;
+      sheets_.stats.isBounded = true;
+    }
+    room -= std::min(room, countInBucket[bucket]);
+  }
   std::vector<Sheet> worst, parts;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < landed.size(); ++i) {

@@ -21,7 +21,7 @@ extern const TechniqueInfo kLightVolumes;
 
 namespace {
 
-constexpr uint64_t kMostBeams = 250'000;                    // of a picture that is to be moved by hand
+constexpr uint64_t kMostBeams = 150'000;                    // of a picture that is to be moved by hand
 constexpr uint32_t kLayerSide = kTilesInRow * kTileStride;  // texels
 constexpr std::size_t kTexelBytes = 4 * sizeof(uint16_t);
 constexpr std::size_t kLayerBytes = std::size_t(kLayerSide) * kLayerSide * kTexelBytes;

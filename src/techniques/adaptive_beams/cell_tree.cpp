@@ -147,7 +147,7 @@ template <class Ask>
 std::vector<CellTree::Wish> CellTree::wishes(const Ask& ask) const {
   std::vector<std::vector<Wish>> chunks((faced_.size() + kChunk - 1) / kChunk);
   const auto sortOut = [](std::vector<Wish>& some) {
-    std::ranges::sort(some);
+    std::sort(some.begin(), some.end());
     some.erase(std::unique(some.begin(), some.end()), some.end());
   };
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {

@@ -1,7 +1,7 @@
 // The cells of landed light while it is made: an octree for each face, as fine as the beams that land in it.
 #pragma once
 
-#include <compare>
+#include <tuple>
 #include <vector>
 
 #include "geometry/box.h"
@@ -67,7 +67,11 @@ class CellTree {
     uint8_t face;
     uint64_t place;  // 21 bits each of x, y and z, in cells of its level
     uint32_t object;
-    auto operator<=>(const Wish&) const = default;
+    bool operator==(const Wish&) const = default;
+    bool operator<(const Wish& other) const {
+      return std::tie(level, face, place, object) <
+             std::tie(other.level, other.face, other.place, other.object);
+    }
     uvec3 at() const {
       constexpr uint64_t kMask = (1u << 21) - 1;
       return {uint32_t(place & kMask), uint32_t(place >> 21 & kMask), uint32_t(place >> 42)};
