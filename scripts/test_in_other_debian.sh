@@ -44,6 +44,8 @@ trap 'rm -rf "$work"' EXIT
 rm -rf "$work"
 git clone -q . "$work"
 mkdir -p "$root/work/shared" "$root/root/.cache/ccache"
+# What runs at another width of vectors left in it would be taken for what runs at this one.
+rm -rf "$root"/root/.cache/mesa_shader_cache*
 
 # Mounts that no other process sees and that end with this one, as do all processes in the root.
 export root shared ccache ci="${CI:-}"
