@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 #include "core/error.h"
 
@@ -18,9 +19,15 @@ constexpr std::array kButtons{GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, G
 // Once for the program: there is one window.
 struct Library {
   Library() {
+#ifdef GLFW_PLATFORM
+    // Where there is no folder for Wayland's sockets, its library would say so on standard error.
+    if (!std::getenv("XDG_RUNTIME_DIR")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
     if (!glfwInit()) throw InputError(kNoDisplay);
   }
-  ~Library() { glfwTerminate(); }
+  ~Library() {
+    glfwTerminate();
+  }
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 };
