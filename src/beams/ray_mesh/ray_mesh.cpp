@@ -163,7 +163,8 @@ double Refinement::allowedSquares() {
     double sum = 0;
     for (const auto& [density, i] : order) {
       area += double(landings_[i].area);
-      if ((sum += double(landings_[i].luminance)) > 0.9 * flux) break;
+      sum += double(landings_[i].luminance);
+      if (sum > 0.9 * flux) break;
     }
   }
   litArea_ = float(area);
