@@ -44,7 +44,11 @@ LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const R
       settings_(settingsOf),
       lights_(lightOntoCasters(sceneOf, rayScene, tree.media())),
       middles_(lights_.size()) {
-  for (const Mesh& mesh : scene_.meshes) rims_.emplace_back(mesh);
+  rims_.resize(scene_.meshes.size());
+  for (const CasterLight& light : lights_) {
+    const uint32_t mesh = scene_.objects[light.object].mesh;
+    if (!rims_[mesh]) rims_[mesh].emplace(scene_.meshes[mesh]);
+  }
 }
 
 uint32_t LightSheets::addCorner(const NewCorner& corner) {
@@ -65,7 +69,7 @@ void LightSheets::settleCorners() {
       const NewCorner& at = pending_[i];
       const CasterLight& light = lights_[at.light];
       const uint32_t mesh = scene_.objects[light.object].mesh;
-      const vec2 weights = rims_[mesh].movedOff(scene_.meshes[mesh], at.triangle, at.weights);
+      const vec2 weights = rims_[mesh]->movedOff(scene_.meshes[mesh], at.triangle, at.weights);
       const EntryPoint entry = entryPoint(scene_, rays_, light.object, at.triangle, weights);
       begun[i] = firstNode(light, entry, firstCorner + uint32_t(i));
       const float far = light.emitter.type == kEmitterDirectional ? std::numeric_limits<float>::infinity()
@@ -224,8 +228,8 @@ std::size_t LightSheets::bytes() const {
   return sum;
 }
 
-// Whether light that ended before the boundary where the sheet stands is another sheet's: of all the ways
-// that were taken after it ended, the first ones count it.
+// A path that ends early belongs to all sheets that differ only in the ways they would have taken after its
+// end. The sheet of the first ways alone counts its light. True for the others.
 bool LightSheets::isElsewhere(const Sheet& sheet) const {
   const uint8_t ended = tree.nodes[sheet.node[0]].generation;
   return ended < sheet.generation && (sheet.aside >> ended) != 0;

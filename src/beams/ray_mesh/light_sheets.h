@@ -2,6 +2,7 @@
 // parted where their paths part.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -97,7 +98,7 @@ class LightSheets {
   const RayScene& rays_;
   const RayMeshSettings& settings_;
   std::vector<CasterLight> lights_;
-  std::vector<FacetRims> rims_;  // of the meshes
+  std::vector<std::optional<FacetRims>> rims_;  // of the meshes of casters
   std::vector<NewCorner> pending_;
   std::vector<uint32_t> firstOfCorner_;  // node; kNone until it is settled
   std::vector<EdgeTable> middles_;       // by light

@@ -3,7 +3,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "beams/ray_mesh/light_sheets.h"
@@ -17,7 +16,7 @@ constexpr int kMostLevels = 16;
 constexpr float kSteep = 2.5f;
 // Of the detail that a receiver's point shows: light that is no more off is where it should be.
 constexpr float kUnseen = 0.3f, kUnseenInFold = 1;
-// Times the mean of what is lit, light is focused.
+// Light that is denser than this, times the mean of what is lit, is focused.
 constexpr double kFocus = 8;
 // Of the size of what is lit, the most that one path stands for.
 constexpr float kWidestPath = 1.0f / 8;
@@ -38,7 +37,7 @@ struct Landing {
   bool isWanted = true;
 };
 
-// About a node: of the sheets of one way that meet there.
+// Sums over the sheets that meet at a node.
 struct Around {
   float flux = 0;      // lm
   float incident = 0;  // lm, before any boundary took of it
@@ -264,14 +263,14 @@ vec3 litNormal(const PathNode& node) {
   return dot(node.direction, node.geometricNormal) < 0 ? node.geometricNormal : -node.geometricNormal;
 }
 
-// m about its path's end, over which a single path's light is spread.
+// Radius (m) about the end of a single path, over which its light is spread.
 float Refinement::pathRadius(const Sheet& sheet, const Landing& landing) const {
   const float faint = std::sqrt(landing.luminance / (kBrightestPath * std::max(float(mean_), 1e-30f)));
   const float widest = kWidestPath * std::sqrt(litArea_);
   return std::clamp(std::max(sheet.bend, faint), landing.detail, std::max(widest, landing.detail));
 }
 
-// Single paths are chosen at random, each for all light about it: what they vary by, as errorSquares.
+// The variance of single paths, which stand for the light about them, in the unit of errorSquares.
 double Refinement::singlePathSquares(const std::vector<Sheet>& landed) const {
   double sum = 0;
   for (std::size_t i = 0; i < landed.size(); ++i) {
@@ -301,24 +300,23 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) const {
     beam.detail = landing.detail;
     beam.isPath = sheet.cuts == kWhole;
     const PathNode& first = sheets_.tree.nodes[sheet.node[0]];
-    const vec3 normal = settings_.target.isPlane ? settings_.target.plane.normal : first.geometricNormal;
-    const float radius = pathRadius(sheet, landing);
-    const mat3 tangent = tangentFrame(normal, radius);
+    mat3 tangent(0);
     if (beam.isPath) {
+      const float radius = pathRadius(sheet, landing);
+      const bool isPlane = settings_.target.isPlane;
+      tangent = tangentFrame(isPlane ? settings_.target.plane.normal : first.geometricNormal, radius);
       beam.width = 1.5f * radius;
       ++mesh.stats.singlePaths;
     }
-    const bool isSmooth = sheet.cuts != kWhole && steepness(sheet, landing) < kSteep;
+    const bool isSmooth = !beam.isPath && steepness(sheet, landing) < kSteep;
     vec3 density(1);
     beam.object = first.object;
     beam.leastNormal = beam.mostNormal = litNormal(first);
     for (int c = 0; c < 3; ++c) {
       const PathNode& node = sheets_.tree.nodes[sheet.node[c]];
-      beam.corner[c] = node.position;
+      beam.corner[c] = node.position + tangent[c];
       beam.leastNormal = min(beam.leastNormal, litNormal(node));
       beam.mostNormal = max(beam.mostNormal, litNormal(node));
-      if (sheet.cuts == kWhole) beam.corner[c] += tangent[c];
-      beam.node[c] = sheet.node[c];
       if (isSmooth) density[c] = around_[sheet.node[c]].density();
     }
     beam.density = isSmooth ? 3.0f * density / (density.x + density.y + density.z) : vec3(1);
@@ -329,48 +327,26 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) const {
   }
 }
 
-class Clock {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double milliseconds = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return milliseconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 }  // namespace
 
 void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSettings& settings,
                   Progress& progress, RayMesh& mesh) {
-  Clock clock;
   progress.begin("beams", 0);
   LightSheets sheets(scene, rays, settings);
   sheets.tree.nodes = std::move(mesh.nodes);
   sheets.tree.nodes.clear();
   mesh.beams.clear();
   std::vector<Sheet> landed;
-  std::vector<Sheet> first = sheets.firstSheets();
-  const double firstMilliseconds = clock.lap();
-  sheets.follow(std::move(first), landed, progress);
-  const double followMilliseconds = clock.lap();
+  sheets.follow(sheets.firstSheets(), landed, progress);
   Refinement refinement(sheets, settings);
   refinement.run(landed, progress);
   sheets.conform(landed);
   refinement.describeAnew(landed);
-  const double refineMilliseconds = clock.lap();
   mesh.stats = sheets.stats;
   refinement.emit(landed, mesh);
   mesh.stats.rays = sheets.tree.raysTraced;
   mesh.stats.bytes = sheets.bytes();
   mesh.nodes = std::move(sheets.tree.nodes);
-  mesh.stats.milliseconds = {{"first", firstMilliseconds},
-                             {"follow", followMilliseconds},
-                             {"refine", refineMilliseconds},
-                             {"emit", clock.lap()}};
 }
 
 }  // namespace nephroid

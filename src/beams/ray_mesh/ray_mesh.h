@@ -5,8 +5,6 @@
 #pragma once
 
 #include <array>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "beams/ray_mesh/path_tree.h"
@@ -42,7 +40,6 @@ struct LandedBeam {
   bool isPath = false;                 // one path alone, for light about it
   uint32_t object = 0;                 // that they land on
   vec3 leastNormal{0}, mostNormal{0};  // of the receiver's side that is lit, at the corners, axis by axis
-  uint32_t node[3];                    // of the paths, whose last one is the way that landed
 };
 
 inline constexpr std::size_t kToldLevels = 24;
@@ -50,7 +47,6 @@ inline constexpr std::size_t kToldLevels = 24;
 struct RayMeshStats {
   uint64_t rays = 0;
   uint64_t shadowRays = 0;
-  uint64_t corners = 0;
   uint64_t bytes = 0;
   double incidentFlux = 0;   // lm, luminance, onto casters
   double landedFlux = 0;     // where it is wanted
@@ -61,7 +57,6 @@ struct RayMeshStats {
   bool isBounded = false;    // a bound on beams or bytes was met first
   std::array<uint64_t, kToldLevels> beamsByLevel{};
   std::array<uint64_t, kToldLevels> beamsByBranch{};  // by the boundaries that they crossed
-  std::vector<std::pair<std::string, double>> milliseconds;
 };
 
 struct RayMesh {
