@@ -368,11 +368,27 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
 }
 
 void RayScene::occluded(std::span<const Ray> rays, std::span<uint8_t> isOccluded) const {
+  constexpr std::size_t kWidth = 8;
   countRays(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    RTCRay query = embreeRay(rays[i]);
-    embreeOccluded(impl_->root(), query);
-    isOccluded[i] = query.tfar < 0;
+  for (std::size_t first = 0; first < rays.size(); first += kWidth) {
+    const std::size_t count = std::min(kWidth, rays.size() - first);
+    alignas(32) int valid[kWidth] = {};
+    RTCRay8 packet{};
+    for (std::size_t i = 0; i < kWidth; ++i) {
+      const Ray& ray = rays[first + std::min(i, count - 1)];
+      valid[i] = i < count ? -1 : 0;
+      packet.org_x[i] = ray.origin.x;
+      packet.org_y[i] = ray.origin.y;
+      packet.org_z[i] = ray.origin.z;
+      packet.dir_x[i] = ray.direction.x;
+      packet.dir_y[i] = ray.direction.y;
+      packet.dir_z[i] = ray.direction.z;
+      packet.tnear[i] = ray.nearDistance;
+      packet.tfar[i] = ray.farDistance;
+      packet.mask[i] = ~0u;
+    }
+    embreeOccluded(impl_->root(), valid, packet);
+    for (std::size_t i = 0; i < count; ++i) isOccluded[first + i] = packet.tfar[i] < 0;
   }
 }
 

@@ -50,22 +50,50 @@ std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& ra
   return all;
 }
 
+namespace {
+
+struct FlatAndCurved {
+  vec3 flat, curved;  // m, in the mesh's own space
+};
+
+FlatAndCurved pointsAt(const Mesh& mesh, const mat3& positions, const mat3& normals, vec3 weights) {
+  const vec3 flat = positions * weights;
+  return {flat, mesh.isCurved ? flat + curvedOffset(flat, weights, positions, normals) : flat};
+}
+
+struct Corners {
+  mat3 positions, normals;
+};
+
+Corners cornersOf(const Mesh& mesh, uint32_t triangle) {
+  const uvec3 c = mesh.triangles[triangle];
+  return {mat3(mesh.positions[c.x], mesh.positions[c.y], mesh.positions[c.z]),
+          mat3(mesh.normals[c.x], mesh.normals[c.y], mesh.normals[c.z])};
+}
+
+vec3 allThree(vec2 weights) {
+  return {1 - weights.x - weights.y, weights};
+}
+
+}  // namespace
+
+vec3 entryPosition(const Scene& scene, uint32_t objectIndex, uint32_t triangle, vec2 weights) {
+  const Object& object = scene.objects[objectIndex];
+  const Mesh& mesh = scene.meshOf(object);
+  const Corners corners = cornersOf(mesh, triangle);
+  return object.placement.point(pointsAt(mesh, corners.positions, corners.normals, allThree(weights)).curved);
+}
+
 EntryPoint entryPoint(const Scene& scene, const RayScene& rays, uint32_t objectIndex, uint32_t triangle,
                       vec2 weights) {
   const Object& object = scene.objects[objectIndex];
   const Mesh& mesh = scene.meshOf(object);
-  const uvec3 corners = mesh.triangles[triangle];
-  mat3 positions, normals;
-  for (int i = 0; i < 3; ++i) {
-    positions[i] = mesh.positions[corners[i]];
-    normals[i] = mesh.normals[corners[i]];
-  }
-  const vec3 all(1 - weights.x - weights.y, weights);
+  const auto [positions, normals] = cornersOf(mesh, triangle);
+  const vec3 all = allThree(weights);
+  const FlatAndCurved points = pointsAt(mesh, positions, normals, all);
   EntryPoint entry;
-  const vec3 flat = positions * all;
-  const vec3 curved = mesh.isCurved ? flat + curvedOffset(flat, all, positions, normals) : flat;
-  entry.flatPosition = object.placement.point(flat);
-  entry.position = object.placement.point(curved);
+  entry.flatPosition = object.placement.point(points.flat);
+  entry.position = object.placement.point(points.curved);
   entry.normal = object.placement.direction(normalize(normals * all));
   const vec3 doubledArea = cross(positions[1] - positions[0], positions[2] - positions[0]);
   entry.geometricNormal = object.placement.direction(doubledArea / std::max(length(doubledArea), 1e-30f));

@@ -30,6 +30,8 @@ struct EntryPoint {
   vec3 geometricNormal{0};
   uint32_t patch = 0;
 };
+// m, on the curved surface.
+vec3 entryPosition(const Scene& scene, uint32_t object, uint32_t triangle, vec2 weights);
 EntryPoint entryPoint(const Scene& scene, const RayScene& rays, uint32_t object, uint32_t triangle,
                       vec2 weights);
 

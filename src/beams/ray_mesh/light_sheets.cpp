@@ -17,6 +17,10 @@ constexpr uint32_t kMaximumForcedCuts = 7;
 // A branch that carries no more of the light that fed it is left out, as far as the error allows.
 constexpr float kWeakBranch = 0.02f;
 constexpr double kLeftOut = 0.07;  // of the error
+// Of the error: less than this is not followed sheet by sheet.
+constexpr float kLeastCarried = 2e-4f;
+// Beams that a sheet of a caster's own triangle becomes, about.
+constexpr float kBeamsOfFirst = 4;
 // By how much a single path stands for light of a wider beam at each boundary that it passes.
 constexpr float kSpreadAtBoundary = 2.0f;
 
@@ -94,44 +98,52 @@ void LightSheets::reach(std::vector<Ask>& asks) {
     ask.node = firstOfCorner_[ask.corner];
     farthest = std::max(farthest, ask.generation);
   }
-  std::vector<uint32_t> fresh, ahead;
+  std::vector<uint32_t> fresh, asked, ahead;
   for (uint8_t generation = 0; generation < farthest; ++generation) {
     fresh.clear();
+    asked.clear();
     ahead.clear();
     for (Ask& ask : asks) {
       if (ask.generation <= generation) continue;
       const PathNode& node = tree.nodes[ask.node];
       if (node.state != PathState::atCaster || node.generation != generation) continue;
-      const uint8_t asked = uint8_t(ask.path >> generation & 1u);
-      const uint32_t ways = tree.waysFrom(node);
+      const uint8_t wanted = uint8_t(ask.path >> generation & 1u);
       // Where there is one way alone, that one.
-      const uint8_t way = ways >> asked & 1u ? asked : uint8_t(1 - asked);
-      const bool isKnown = node.child[way] != kNone;
+      const uint8_t way = tree.waysFrom(node) >> wanted & 1u ? wanted : uint8_t(1 - wanted);
       ask.node = tree.childOf(ask.node, way, fresh);
-      if (isKnown && tree.nodes[ask.node].state == PathState::ahead) ahead.push_back(ask.node);
+      asked.push_back(ask.node);
     }
     tree.bend(fresh);
-    for (const uint32_t node : fresh)
-      if (tree.nodes[node].state == PathState::ahead) ahead.push_back(node);
-    std::ranges::sort(ahead);
-    ahead.erase(std::unique(ahead.begin(), ahead.end()), ahead.end());
-    std::erase_if(ahead, [&](uint32_t node) { return tree.nodes[node].state != PathState::ahead; });
+    for (const uint32_t node : asked) tree.queue(node, ahead);
     tree.trace(ahead);
   }
 }
 
+vec3 LightSheets::cornerPosition(const Sheet& sheet, vec2 weights) const {
+  return entryPosition(scene_, lights_[sheet.light].object, sheet.triangle, weights);
+}
+
+vec3 LightSheets::fluxOf(const Sheet& sheet, vec3 a, vec3 b, vec3 c) const {
+  return sheet.gain * fluxBetween(scene_, lights_[sheet.light], a, b, c);
+}
+
 vec3 LightSheets::fluxOf(const Sheet& sheet) const {
-  const CasterLight& light = lights_[sheet.light];
-  vec3 corners[3];
-  for (int i = 0; i < 3; ++i)
-    corners[i] = entryPoint(scene_, rays_, light.object, sheet.triangle, sheet.weights[i]).position;
-  return sheet.gain * fluxBetween(scene_, light, corners[0], corners[1], corners[2]);
+  return fluxOf(sheet, cornerPosition(sheet, sheet.weights[0]), cornerPosition(sheet, sheet.weights[1]),
+                cornerPosition(sheet, sheet.weights[2]));
 }
 
 void LightSheets::setFluxes(std::span<Sheet> sheets) const {
   oneapi::tbb::parallel_for(IndexRange(0, sheets.size(), kGrain), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) sheets[i].flux = fluxOf(sheets[i]);
   });
+}
+
+// lm: the part of the incident flux that is `ofError` of the error. Of casters of so many triangles that the
+// bound on beams will be met, no less than what a beam then has in the mean.
+float LightSheets::leastFlux(float ofError) const {
+  const float most = float(settings_.mostBeams);
+  const float bounded = std::min(1.0f, kBeamsOfFirst * float(firstSheets_) / most) / most;
+  return std::max(ofError * settings_.error, bounded) * float(stats.incidentFlux);
 }
 
 std::vector<Sheet> LightSheets::firstSheets() {
@@ -170,6 +182,7 @@ std::vector<Sheet> LightSheets::firstSheets() {
     cut(forced[cuts], forced[cuts - 1]);
     for (Sheet& sheet : forced[cuts - 1]) sheet.cuts = 0;
   }
+  firstSheets_ = forced[0].size();
   return std::move(forced[0]);
 }
 
@@ -206,6 +219,8 @@ void LightSheets::cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts) 
           bend = std::max(
               bend, length(tree.nodes[node[3 + i]].position -
                            0.5f * (tree.nodes[node[i]].position + tree.nodes[node[(i + 1) % 3]].position)));
+      vec3 corners[6];
+      for (int i = 0; i < 6; ++i) corners[i] = cornerPosition(whole, weights[i]);
       constexpr int kParts[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
       for (int p = 0; p < 4; ++p) {
         Sheet& part = parts[first + 4 * s + p];
@@ -216,7 +231,7 @@ void LightSheets::cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts) 
           part.node[i] = node[kParts[p][i]];
           part.weights[i] = weights[kParts[p][i]];
         }
-        part.flux = fluxOf(part);
+        part.flux = fluxOf(part, corners[kParts[p][0]], corners[kParts[p][1]], corners[kParts[p][2]]);
       }
     }
   });
@@ -297,13 +312,8 @@ void LightSheets::expand(std::span<const Sheet> sheets, std::vector<Sheet>& next
   prune(children);
   chooseAmongWeak(children);
   std::vector<uint32_t> ahead;
-  std::vector<uint8_t> isAsked(tree.nodes.size(), 0);
   for (const Sheet& child : children)
-    for (const uint32_t node : child.node)
-      if (tree.nodes[node].state == PathState::ahead && !isAsked[node]) {
-        isAsked[node] = 1;
-        ahead.push_back(node);
-      }
+    for (const uint32_t node : child.node) tree.queue(node, ahead);
   tree.trace(ahead);
   next.insert(next.end(), children.begin(), children.end());
 }
@@ -342,7 +352,7 @@ void LightSheets::prune(std::vector<Sheet>& sheets) {
 // sheets that carry little some are taken out by lot, with their light given to the others: in the mean
 // nothing is missing, and long ways of trapped light cost little.
 void LightSheets::chooseAmongWeak(std::vector<Sheet>& children) {
-  const float least = kLeastCarried * settings_.error * float(stats.incidentFlux);
+  const float least = leastFlux(kLeastCarried);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < children.size(); ++i) {
     Sheet child = children[i];

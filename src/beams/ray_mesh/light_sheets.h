@@ -34,8 +34,6 @@ struct Sheet {
 
 // Cuts of a sheet of one path alone, which is not cut.
 inline constexpr uint8_t kWhole = 255;
-// Of the incident flux, times the error: less than this is not followed sheet by sheet.
-inline constexpr float kLeastCarried = 2e-4f;
 
 class LightSheets {
  public:
@@ -84,7 +82,9 @@ class LightSheets {
   void reach(std::vector<Ask>& asks);
   uint32_t middleOf(const Sheet& sheet, int side) const;
   void addConforming(const Sheet& sheet, std::vector<Sheet>& conforming) const;
+  vec3 cornerPosition(const Sheet& sheet, vec2 weights) const;
   vec3 fluxOf(const Sheet& sheet) const;
+  vec3 fluxOf(const Sheet& sheet, vec3 a, vec3 b, vec3 c) const;
   void setFluxes(std::span<Sheet> sheets) const;
   void expand(std::span<const Sheet> sheets, std::vector<Sheet>& next);
   void prune(std::vector<Sheet>& sheets);
@@ -93,12 +93,16 @@ class LightSheets {
   void clip(std::span<const Sheet> mixed, std::vector<Sheet>& next);
   void giveToOne(const Sheet& sheet, std::vector<Sheet>& next);
   bool isElsewhere(const Sheet& sheet) const;
+  float leastFlux(float ofError) const;
+  float lightestParted(const Sheet& sheet) const;
+  float mostCarried(const Sheet& sheet) const;
 
   const Scene& scene_;
   const RayScene& rays_;
   const RayMeshSettings& settings_;
   std::vector<CasterLight> lights_;
   std::vector<std::optional<FacetRims>> rims_;  // of the meshes of casters
+  std::size_t firstSheets_ = 0;
   std::vector<NewCorner> pending_;
   std::vector<uint32_t> firstOfCorner_;  // node; kNone until it is settled
   std::vector<EdgeTable> middles_;       // by light

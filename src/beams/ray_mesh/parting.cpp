@@ -8,7 +8,7 @@
 namespace nephroid {
 namespace {
 
-constexpr int kHalvings = 5;      // of a side, to where paths part
+constexpr int kMostHalvings = 4;  // of a side, to where paths part
 constexpr uint8_t kMostCuts = 7;  // of a sheet, before it is parted along straight lines
 // Of the incident flux, times the error: sheets that carry more are cut before they are parted along straight
 // lines; and those that carry less are given to their corners.
@@ -26,18 +26,17 @@ struct SideHash {
 
 // What the transmittance at the border of total reflection, near which it rises as a power of the distance,
 // has to be taken for so that the mean of corners is right: from its value a little off the border, `near`,
-// and that of the side's other end.
-float borderTransmittance(float near, float far) {
-  constexpr float kPlaceOfNear = 0.5f / float(1 << kHalvings);
+// at `place` of the side, and that of the side's other end.
+float borderTransmittance(float near, float far, float place) {
   if (near <= 0 || far <= near) return near;
-  const float power = std::log(far / near) / -std::log(kPlaceOfNear);
+  const float power = std::log(far / near) / -std::log(place);
   return std::clamp(far * (2 / (1 + power) - 1), near, far);
 }
 
-// kLight, and more after many boundaries, past which light is spread out.
-float lightestParted(const Sheet& sheet) {
-  const int spread = std::clamp(int(sheet.generation) - 2, 0, 4);
-  return kLight * float(1 << (2 * spread));
+// How often the sides of a sheet are halved that carries `times` the light of the lightest that are: until
+// what lies between is as little.
+int halvingsOf(float times) {
+  return std::clamp(int(std::ceil(std::log2(times))) + 1, 2, kMostHalvings);
 }
 
 }  // namespace
@@ -52,30 +51,32 @@ struct LightSheets::SideCut {
   uint64_t path;
   uint8_t generation;
   uint32_t signature[2];
+  int halvings = 1;          // that are worth it
   bool isAmongMore = false;  // a third way lies between the two
   float middle() const { return 0.5f * (place[0] + place[1]); }
 };
 
+// lm; more after many boundaries, past which light is spread out.
+float LightSheets::lightestParted(const Sheet& sheet) const {
+  const int spread = std::clamp(int(sheet.generation) - 2, 0, 4);
+  return leastFlux(kLight) * float(1 << (2 * spread));
+}
+
 void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
   if (mixed.empty()) return;
   std::vector<Sheet> heavy, clipped;
-  const float unit = settings_.error * float(stats.incidentFlux);
+  const float leastCut = kHeavy * settings_.error * float(stats.incidentFlux);
   for (const Sheet& sheet : mixed) {
-    float most = 0;
     uint32_t signature[3];
-    for (int i = 0; i < 3; ++i) {
-      const PathNode& node = tree.nodes[sheet.node[i]];
-      signature[i] = node.signature;
-      if (node.state != PathState::dark && node.state != PathState::lost)
-        most = std::max(most, luminanceOf(sheet.flux * node.transmittance));
-    }
+    for (int i = 0; i < 3; ++i) signature[i] = tree.nodes[sheet.node[i]].signature;
+    const float most = mostCarried(sheet);
     const float light = lightestParted(sheet);
     const bool areTwo =
         signature[0] == signature[1] || signature[1] == signature[2] || signature[2] == signature[0];
-    const bool isHeavy = sheet.cuts < kMostCuts && most > (areTwo ? kHeavy : 10 * light) * unit;
-    if (most > light * unit && isHeavy) {
+    const bool isHeavy = sheet.cuts < kMostCuts && most > (areTwo ? std::max(leastCut, light) : 10 * light);
+    if (most > light && isHeavy) {
       heavy.push_back(sheet);
-    } else if (most > light * unit && areTwo && sheet.cuts < kMostCuts + 2) {
+    } else if (most > light && areTwo && sheet.cuts < kMostCuts + 2) {
       clipped.push_back(sheet);
     } else {
       giveToOne(sheet, next);
@@ -83,6 +84,17 @@ void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
   }
   cut(heavy, next);
   clip(clipped, next);
+}
+
+// lm, of the brightest of its paths.
+float LightSheets::mostCarried(const Sheet& sheet) const {
+  float most = 0;
+  for (const uint32_t index : sheet.node) {
+    const PathNode& node = tree.nodes[index];
+    if (node.state != PathState::dark && node.state != PathState::lost)
+      most = std::max(most, luminanceOf(sheet.flux * node.transmittance));
+  }
+  return most;
 }
 
 // The path of one corner, at random, takes all of the light.
@@ -118,8 +130,11 @@ void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
     bool isTurned[2];  // whether the side begins at the other end
   };
   std::vector<Clipped> clipped(mixed.size());
+  int mostHalvings = 1;
   for (std::size_t s = 0; s < mixed.size(); ++s) {
     const Sheet& sheet = mixed[s];
+    const int halvings = halvingsOf(mostCarried(sheet) / lightestParted(sheet));
+    mostHalvings = std::max(mostHalvings, halvings);
     const auto signatureAt = [&](int i) { return tree.nodes[sheet.node[i % 3]].signature; };
     int alone = 0;
     while (signatureAt(alone + 1) != signatureAt(alone + 2)) ++alone;
@@ -133,7 +148,10 @@ void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
       const auto [found, isNew] = known.try_emplace(key, uint32_t(sides.size()));
       clipped[s].side[k] = found->second;
       clipped[s].isTurned[k] = isTurned;
-      if (!isNew) continue;
+      if (!isNew) {
+        sides[found->second].halvings = std::max(sides[found->second].halvings, halvings);
+        continue;
+      }
       SideCut side{};
       for (int end = 0; end < 2; ++end) {
         const int corner = (end == 1) != isTurned ? other : alone;
@@ -147,19 +165,26 @@ void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
       side.light = sheet.light;
       side.path = sheet.path;
       side.generation = sheet.generation;
+      side.halvings = halvings;
       sides.push_back(side);
     }
   }
-  std::vector<Ask> asks(sides.size());
-  for (int halving = 0; halving < kHalvings; ++halving) {
-    for (std::size_t i = 0; i < sides.size(); ++i) {
+  std::vector<Ask> asks;
+  std::vector<uint32_t> asking;
+  for (int halving = 0; halving < mostHalvings; ++halving) {
+    asks.clear();
+    asking.clear();
+    for (uint32_t i = 0; i < sides.size(); ++i) {
       const SideCut& side = sides[i];
-      asks[i] = {addCorner({side.light, side.triangle, mix(side.weights[0], side.weights[1], side.middle())}),
-                 side.path, side.generation};
+      if (halving >= side.halvings) continue;
+      asks.push_back(
+          {addCorner({side.light, side.triangle, mix(side.weights[0], side.weights[1], side.middle())}),
+           side.path, side.generation});
+      asking.push_back(i);
     }
     reach(asks);
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      SideCut& side = sides[i];
+    for (std::size_t i = 0; i < asks.size(); ++i) {
+      SideCut& side = sides[asking[i]];
       const uint32_t signature = tree.nodes[asks[i].node].signature;
       const int end = signature == side.signature[0] ? 0 : 1;
       side.place[end] = side.middle();
@@ -175,9 +200,7 @@ void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
     const Sheet& whole = mixed[s];
     const Clipped& how = clipped[s];
     if (sides[how.side[0]].isAmongMore || sides[how.side[1]].isAmongMore) {
-      if (whole.cuts < kMostCuts && luminanceOf(carried(whole)) > 10 * lightestParted(whole) *
-                                                                      settings_.error *
-                                                                      float(stats.incidentFlux)) {
+      if (whole.cuts < kMostCuts && luminanceOf(carried(whole)) > 10 * lightestParted(whole)) {
         chaotic.push_back(whole);
       } else {
         giveToOne(whole, next);
@@ -193,10 +216,11 @@ void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
       own[k] = side.node[ownEnd];
       others[k] = side.node[1 - ownEnd];
       const float place = how.isTurned[k] ? 1 - side.middle() : side.middle();
+      const float placeOfNear = 0.5f * (side.place[1] - side.place[0]);
       const auto gain = [&](uint32_t near, uint32_t far, uint32_t beyond) {
         if (tree.nodes[beyond].state != PathState::lost) return 0.0f;
         const float atNear = luminanceOf(tree.nodes[near].transmittance);
-        return borderTransmittance(atNear, luminanceOf(tree.nodes[far].transmittance)) - atNear;
+        return borderTransmittance(atNear, luminanceOf(tree.nodes[far].transmittance), placeOfNear) - atNear;
       };
       const uint32_t far = whole.node[how.alone], other = whole.node[(how.alone + 1 + k) % 3];
       ownGain[k] = gain(own[k], far, other);

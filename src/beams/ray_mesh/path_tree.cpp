@@ -194,6 +194,7 @@ void PathTree::trace(std::span<const uint32_t> bent) {
       rays_.intersect(std::span<const Ray>(batch.data(), count), std::span<Hit>(hits.data(), count));
       for (std::size_t i = 0; i < count; ++i) {
         PathNode& node = nodes[bent[first + i]];
+        node.isQueued = false;
         finish(node, batch[i], hits[i]);
         const bool tellsSurface =
             node.state == PathState::arrived && !target_.isPlane && hasFewFaces_[node.object];

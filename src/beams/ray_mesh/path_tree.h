@@ -45,6 +45,7 @@ struct PathNode {
   uint8_t channel = 0;     // of the index of refraction
   uint32_t signature = 0;  // equal for paths that met the same smooth surfaces one after the other
   PathState state = PathState::ahead;
+  bool isQueued = false;  // to be traced
 };
 
 // Where light is wanted: on opaque surfaces, or on a plane that blocks nothing.
@@ -66,6 +67,14 @@ class PathTree {
 
   // A path's first node, at a caster, where light that comes through `media` meets it.
   uint32_t addFirst(const PathNode& node);
+
+  // Adds a node to `queue` that is to be traced and is in no queue.
+  void queue(uint32_t index, std::vector<uint32_t>& queue) {
+    PathNode& node = nodes[index];
+    if (node.state != PathState::ahead || node.isQueued) return;
+    node.isQueued = true;
+    queue.push_back(index);
+  }
 
   // Directions and transmittances of new nodes, and then what they meet. In parallel.
   void bend(std::span<const uint32_t> fresh);

@@ -22,8 +22,11 @@ constexpr double kFocus = 8;
 constexpr float kWidestPath = 1.0f / 8;
 // Of the mean of what is lit, the brightest that one path may be, so that it is not seen as a speck.
 constexpr float kBrightestPath = 0.02f;
-// Area of a triangle whose corners are 1 off its middle.
+// Texels that a beam has across and along, at most.
+constexpr float kTexelsAcross = 3, kTexelsAlong = 16;
+// Area and side of a triangle whose corners are 1 off its middle.
 constexpr double kTangentArea = 1.299;
+constexpr float kSideOfTangent = 1.732f;
 
 // What a sheet leaves where it lands.
 struct Landing {
@@ -37,15 +40,15 @@ struct Landing {
   bool isWanted = true;
 };
 
-// Sums over the sheets that meet at a node.
+// Sums over the sheets that meet at a node. Double, so that what is taken away leaves nothing.
 struct Around {
-  float flux = 0;      // lm
-  float incident = 0;  // lm, before any boundary took of it
-  float area = 0;      // m2
-  uint8_t sides = 0;   // bit 0: some are not mirrored; bit 1: some are
-  float density() const { return area > 0 ? flux / area : 0; }
-  float bundling() const { return area > 0 ? incident / area : 0; }
-  bool isFold() const { return sides == 3; }
+  double flux = 0;             // lm
+  double incident = 0;         // lm, before any boundary took of it
+  double area = 0;             // m2
+  uint32_t count[2] = {0, 0};  // of those that are not mirrored, and of those that are
+  float density() const { return area > 0 ? float(flux / area) : 0; }
+  float bundling() const { return area > 0 ? float(incident / area) : 0; }
+  bool isFold() const { return count[0] > 0 && count[1] > 0; }
 };
 
 class Refinement {
@@ -69,12 +72,15 @@ class Refinement {
 
   void describeAnew(const std::vector<Sheet>& landed) {
     landings_.clear();
+    around_.clear();
     describe(landed);
   }
   void emit(const std::vector<Sheet>& landed, RayMesh& mesh) const;
 
  private:
+  LandedBeam beamOf(const Sheet& sheet, const Landing& landing) const;
   void describe(const std::vector<Sheet>& landed);
+  void include(const Sheet& sheet, const Landing& landing, int sign);
   Landing landingOf(const Sheet& sheet) const;
   double allowedSquares();
   double judge(const std::vector<Sheet>& landed);
@@ -135,15 +141,20 @@ void Refinement::describe(const std::vector<Sheet>& landed) {
   oneapi::tbb::parallel_for(IndexRange(known, landed.size(), 512), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) landings_[i] = landingOf(landed[i]);
   });
-  around_.assign(sheets_.tree.nodes.size(), {});
-  for (std::size_t i = 0; i < landed.size(); ++i)
-    if (landed[i].cuts != kWhole)
-      for (const uint32_t node : landed[i].node) {
-        around_[node].flux += landings_[i].luminance;
-        around_[node].incident += luminanceOf(landed[i].flux);
-        around_[node].area += landings_[i].area;
-        around_[node].sides |= landings_[i].isMirrored ? 2 : 1;
-      }
+  around_.resize(sheets_.tree.nodes.size());
+  for (std::size_t i = known; i < landed.size(); ++i) include(landed[i], landings_[i], 1);
+}
+
+// Adds a sheet to the sums at its nodes, or takes it away: `sign` is 1 or -1.
+void Refinement::include(const Sheet& sheet, const Landing& landing, int sign) {
+  if (sheet.cuts == kWhole) return;
+  for (const uint32_t node : sheet.node) {
+    Around& around = around_[node];
+    around.flux += sign * double(landing.luminance);
+    around.incident += sign * double(luminanceOf(sheet.flux));
+    around.area += sign * double(landing.area);
+    around.count[landing.isMirrored] += uint32_t(sign);
+  }
 }
 
 // What the squares of the error, times the areas where they are made, may add up to: (lm/m2)^2 m2.
@@ -245,6 +256,7 @@ bool Refinement::cutWorst(std::vector<Sheet>& landed, double squares, Progress& 
   for (std::size_t i = 0; i < landed.size(); ++i) {
     if (errors_[i] > 0 && bucketOf(errors_[i]) < last) {
       worst.push_back(landed[i]);
+      include(landed[i], landings_[i], -1);
     } else {
       landings_[kept] = landings_[i];
       landed[kept++] = landed[i];
@@ -288,43 +300,62 @@ mat3 tangentFrame(vec3 normal, float radius) {
   return {radius * u, radius * (-0.5f * u + 0.866f * v), radius * (-0.5f * u - 0.866f * v)};
 }
 
-void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) const {
-  mesh.beams.reserve(landed.size());
-  for (std::size_t i = 0; i < landed.size(); ++i) {
-    const Landing& landing = landings_[i];
-    if (!landing.isWanted) continue;
-    const Sheet& sheet = landed[i];
-    LandedBeam beam;
-    beam.flux = landing.flux;
-    beam.width = landing.width;
-    beam.detail = landing.detail;
-    beam.isPath = sheet.cuts == kWhole;
-    const PathNode& first = sheets_.tree.nodes[sheet.node[0]];
-    mat3 tangent(0);
-    if (beam.isPath) {
-      const float radius = pathRadius(sheet, landing);
-      const bool isPlane = settings_.target.isPlane;
-      tangent = tangentFrame(isPlane ? settings_.target.plane.normal : first.geometricNormal, radius);
-      beam.width = 1.5f * radius;
-      ++mesh.stats.singlePaths;
-    }
-    const bool isSmooth = !beam.isPath && steepness(sheet, landing) < kSteep;
-    vec3 density(1);
-    beam.object = first.object;
-    beam.leastNormal = beam.mostNormal = litNormal(first);
-    for (int c = 0; c < 3; ++c) {
-      const PathNode& node = sheets_.tree.nodes[sheet.node[c]];
-      beam.corner[c] = node.position + tangent[c];
-      beam.leastNormal = min(beam.leastNormal, litNormal(node));
-      beam.mostNormal = max(beam.mostNormal, litNormal(node));
-      if (isSmooth) density[c] = around_[sheet.node[c]].density();
-    }
-    beam.density = isSmooth ? 3.0f * density / (density.x + density.y + density.z) : vec3(1);
-    mesh.beams.push_back(beam);
-    mesh.stats.landedFlux += double(landing.luminance);
-    ++mesh.stats.beamsByLevel[std::min<std::size_t>(sheet.cuts, kToldLevels - 1)];
-    ++mesh.stats.beamsByBranch[std::min<std::size_t>(sheet.generation, kToldLevels - 1)];
+LandedBeam Refinement::beamOf(const Sheet& sheet, const Landing& landing) const {
+  LandedBeam beam;
+  beam.flux = landing.flux;
+  beam.width = landing.width;
+  float along = landing.longest;
+  beam.isPath = sheet.cuts == kWhole;
+  const PathNode& first = sheets_.tree.nodes[sheet.node[0]];
+  mat3 tangent(0);
+  if (beam.isPath) {
+    const float radius = pathRadius(sheet, landing);
+    const bool isPlane = settings_.target.isPlane;
+    tangent = tangentFrame(isPlane ? settings_.target.plane.normal : first.geometricNormal, radius);
+    beam.width = 1.5f * radius;
+    along = kSideOfTangent * radius;
   }
+  beam.texel = beam.finestBeside =
+      std::max({landing.detail, beam.width / kTexelsAcross, along / kTexelsAlong});
+  const bool isSmooth = !beam.isPath && steepness(sheet, landing) < kSteep;
+  vec3 density(1);
+  beam.object = first.object;
+  beam.leastNormal = beam.mostNormal = litNormal(first);
+  for (int c = 0; c < 3; ++c) {
+    const PathNode& node = sheets_.tree.nodes[sheet.node[c]];
+    beam.corner[c] = node.position + tangent[c];
+    beam.leastNormal = min(beam.leastNormal, litNormal(node));
+    beam.mostNormal = max(beam.mostNormal, litNormal(node));
+    if (isSmooth) density[c] = around_[sheet.node[c]].density();
+  }
+  beam.density = isSmooth ? 3.0f * density / (density.x + density.y + density.z) : vec3(1);
+  return beam;
+}
+
+void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) const {
+  std::vector<uint32_t> wanted;
+  wanted.reserve(landed.size());
+  for (uint32_t i = 0; i < landed.size(); ++i) {
+    if (!landings_[i].isWanted) continue;
+    wanted.push_back(i);
+    mesh.stats.landedFlux += double(landings_[i].luminance);
+    mesh.stats.singlePaths += landed[i].cuts == kWhole;
+    ++mesh.stats.beamsByLevel[std::min<std::size_t>(landed[i].cuts, kToldLevels - 1)];
+    ++mesh.stats.beamsByBranch[std::min<std::size_t>(landed[i].generation, kToldLevels - 1)];
+  }
+  mesh.beams.resize(wanted.size());
+  oneapi::tbb::parallel_for(IndexRange(0, wanted.size(), 512), [&](const IndexRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      mesh.beams[i] = beamOf(landed[wanted[i]], landings_[wanted[i]]);
+  });
+  std::vector<float> finest(sheets_.tree.nodes.size(), std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    for (const uint32_t node : landed[wanted[i]].node)
+      finest[node] = std::min(finest[node], mesh.beams[i].texel);
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (!mesh.beams[i].isPath)
+      for (const uint32_t node : landed[wanted[i]].node)
+        mesh.beams[i].finestBeside = std::min(mesh.beams[i].finestBeside, finest[node]);
 }
 
 }  // namespace

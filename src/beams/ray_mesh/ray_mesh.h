@@ -36,7 +36,8 @@ struct LandedBeam {
   vec3 density{1};                     // at the corners, of light over its mean in the beam
   vec3 flux{0};                        // lm
   float width = 0;                     // m, across its longest side
-  float detail = 0;                    // m, of a receiver's point there
+  float texel = 0;                     // m, of the texels that its light is kept in
+  float finestBeside = 0;              // m, of those of the beams that share a corner with it
   bool isPath = false;                 // one path alone, for light about it
   uint32_t object = 0;                 // that they land on
   vec3 leastNormal{0}, mostNormal{0};  // of the receiver's side that is lit, at the corners, axis by axis

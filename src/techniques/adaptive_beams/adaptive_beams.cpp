@@ -21,7 +21,8 @@ extern const TechniqueInfo kLightVolumes;
 
 namespace {
 
-constexpr uint64_t kMostBeams = 150'000;                    // of a picture that is to be moved by hand
+// Beams of a picture that is to be moved by hand, with an error of 1 %; more for a smaller one.
+constexpr float kMostBeams = 60'000, kErrorOfMost = 0.01f;
 constexpr uint32_t kLayerSide = kTilesInRow * kTileStride;  // texels
 constexpr std::size_t kTexelBytes = 4 * sizeof(uint16_t);
 constexpr std::size_t kLayerBytes = std::size_t(kLayerSide) * kLayerSide * kTexelBytes;
@@ -115,7 +116,7 @@ void AdaptiveBeams::update(GpuScene&) {
   wanted.error = accuracy.error;
   wanted.mostBytes = bytesForPaths(accuracy);
   wanted.paths = settings_.transport.paths;
-  wanted.mostBeams = kMostBeams;
+  wanted.mostBeams = uint64_t(kMostBeams * std::max(kErrorOfMost / wanted.error, 1.0f));
   wanted.eye = scene.camera.position;
   wanted.detailPerMeter =
       2 * std::tan(0.5f * glm::radians(scene.camera.verticalFov)) / float(std::max(pictureSize_.y, 1u));

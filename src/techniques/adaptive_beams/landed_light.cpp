@@ -14,8 +14,7 @@
 namespace nephroid {
 namespace {
 
-constexpr float kRootsAlong = 2;                       // coarsest cells along the longest side of what is lit
-constexpr float kTexelsAcross = 3, kTexelsAlong = 24;  // a beam, at most
+constexpr float kRootsAlong = 2;  // coarsest cells along the longest side of what is lit
 // Part of a face's normal that receivers may have and still be of another face nearby.
 constexpr float kLeastFacing = 0.5f;
 
@@ -40,22 +39,39 @@ std::vector<FacedBeam> facedBeams(const RayMesh& mesh, float coarsest) {
     const std::size_t end = std::min(mesh.beams.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
       const LandedBeam& beam = mesh.beams[i];
-      const float side = std::max({glm::distance(beam.corner[0], beam.corner[1]),
-                                   glm::distance(beam.corner[1], beam.corner[2]),
-                                   glm::distance(beam.corner[2], beam.corner[0])});
-      const float wanted = std::max({beam.detail, beam.width / kTexelsAcross, side / kTexelsAlong});
-      const float level = std::round(std::log2(coarsest / wanted));
-      const uint8_t depth = uint8_t(glm::clamp(level, 0.0f, float(kDeepestCell)));
+      const auto levelOf = [&](float texel) {
+        return uint8_t(glm::clamp(std::round(std::log2(coarsest / texel)), 0.0f, float(kDeepestCell)));
+      };
+      const uint8_t level = levelOf(beam.texel), finest = std::max(levelOf(beam.finestBeside), level);
       for (uint8_t face = 0; face < kFaces; ++face) {
         const int axis = face / 2;
         const float most = face & 1u ? -beam.leastNormal[axis] : beam.mostNormal[axis];
-        if (most > kLeastFacing) chunks[chunk].push_back({uint32_t(i), face, depth});
+        if (most > kLeastFacing) chunks[chunk].push_back({uint32_t(i), face, level, finest});
       }
     }
   });
   std::vector<FacedBeam> faced;
   for (const auto& chunk : chunks) faced.insert(faced.end(), chunk.begin(), chunk.end());
   return faced;
+}
+
+// Adds to a plane of a tile what a coarser one has there, whose texel `offset` (without its border) is the
+// tile's first: at quarters between the coarse texels' middles.
+void addCoarser(std::span<const float> coarse, vec2 offset, std::span<float> tile) {
+  const std::size_t firstColumn = std::size_t(offset.x), firstRow = std::size_t(offset.y);
+  for (std::size_t y = 0; y < kTileStride; ++y) {
+    const std::size_t row = firstRow + y / 2;  // the upper of the two
+    const float lower = y % 2 == 0 ? 0.25f : 0.75f;
+    float between[kTileTexels / 2 + 2];
+    for (std::size_t x = 0; x < kTileTexels / 2 + 2; ++x) {
+      const float* at = coarse.data() + row * kTileStride + firstColumn + x;
+      between[x] = (1 - lower) * at[0] + lower * at[kTileStride];
+    }
+    for (std::size_t x = 0; x < kTileStride; ++x) {
+      const float right = x % 2 == 0 ? 0.25f : 0.75f;
+      tile[y * kTileStride + x] += (1 - right) * between[x / 2] + right * between[x / 2 + 1];
+    }
+  }
 }
 
 }  // namespace
@@ -86,8 +102,10 @@ void LandedLight::build(const RayMesh& mesh) {
       const float scale = float(kTileTexels) / place.size;
       const vec2 corner = acrossFace(place.low, place.face);
       const uint32_t cell = ofCell.front().cell;
-      const TileDeposit deposit({planeOf(cell, 0).data(), planeOf(cell, 1).data(), planeOf(cell, 2).data()},
-                                uvec2(kTileStride));
+      if (std::ranges::none_of(ofCell, [&](const PlacedBeam& one) { return one.isCarried == areCarried; }))
+        return;
+      thread_local TileDeposit deposit;
+      deposit.begin(uvec2(kTileStride));
       for (const PlacedBeam& one : ofCell) {
         if (one.isCarried != areCarried) continue;
         const LandedBeam& beam = mesh.beams[faced[one.beam].beam];
@@ -95,6 +113,7 @@ void LandedLight::build(const RayMesh& mesh) {
         for (int k = 0; k < 3; ++k) at[k] = (acrossFace(beam.corner[k], place.face) - corner) * scale + 1.0f;
         deposit.add(at[0], at[1], at[2], beam.density, beam.flux * (scale * scale));
       }
+      deposit.addTo({planeOf(cell, 0).data(), planeOf(cell, 1).data(), planeOf(cell, 2).data()});
     });
   };
   addBeams(true);

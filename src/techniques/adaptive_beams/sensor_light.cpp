@@ -48,12 +48,14 @@ void deposit(const RayMesh& mesh, const PlaneGrid& grid, uvec2 resolution, std::
     const vec2 corner(0, float(firstRow));
     float* red = flux.data() + std::size_t(firstRow) * resolution.x;
     const std::size_t plane = flux.size() / 3;
-    const TileDeposit tile({red, red + plane, red + 2 * plane}, {resolution.x, rows});
+    thread_local TileDeposit tile;
+    tile.begin({resolution.x, rows});
     for (const uint32_t i : inBand[band]) {
       const LandedBeam& beam = mesh.beams[i];
       const Footprint& f = footprints[i];
       tile.add(f.at[0] - corner, f.at[1] - corner, f.at[2] - corner, beam.density, beam.flux);
     }
+    tile.addTo({red, red + plane, red + 2 * plane});
   });
 }
 
