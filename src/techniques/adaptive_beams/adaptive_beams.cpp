@@ -21,8 +21,10 @@ extern const TechniqueInfo kLightVolumes;
 
 namespace {
 
-// Beams of a picture that is to be moved by hand, with an error of 1 %; more for a smaller one.
-constexpr float kMostBeams = 60'000, kErrorOfMost = 0.01f;
+// Beams for each pixel of a picture that is to be moved by hand, with an error of 1 %; more for a smaller
+// one.
+constexpr float kBeamsOfPixel = 1.0f / 8, kErrorOfMost = 0.01f;
+constexpr uint64_t kFewestBeams = 20'000, kMostBeams = 4'000'000;
 constexpr uint32_t kLayerSide = kTilesInRow * kTileStride;  // texels
 constexpr std::size_t kTexelBytes = 4 * sizeof(uint16_t);
 constexpr std::size_t kLayerBytes = std::size_t(kLayerSide) * kLayerSide * kTexelBytes;
@@ -116,7 +118,9 @@ void AdaptiveBeams::update(GpuScene&) {
   wanted.error = accuracy.error;
   wanted.mostBytes = bytesForPaths(accuracy);
   wanted.paths = settings_.transport.paths;
-  wanted.mostBeams = uint64_t(kMostBeams * std::max(kErrorOfMost / wanted.error, 1.0f));
+  const float asked = kBeamsOfPixel * float(pictureSize_.x) * float(pictureSize_.y) *
+                      std::max(kErrorOfMost / wanted.error, 1.0f);
+  wanted.mostBeams = std::clamp(uint64_t(asked), kFewestBeams, kMostBeams);
   wanted.eye = scene.camera.position;
   wanted.detailPerMeter =
       2 * std::tan(0.5f * glm::radians(scene.camera.verticalFov)) / float(std::max(pictureSize_.y, 1u));
