@@ -1,6 +1,7 @@
 // Middles of a mesh's sides, found by their ends.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,12 @@ class EdgeTable {
     const uint64_t key = a < b ? uint64_t(a) << 32 | b : uint64_t(b) << 32 | a;
     const bool mayHold = !slots_.empty() && (mayHold_[placeOf(key) / 64 % kWords] >> placeOf(key) % 64 & 1u);
     return mayHold ? slots_[find(key)].value : kEmpty;
+  }
+  // Its memory stays.
+  void clear() {
+    std::ranges::fill(slots_, Slot{});
+    std::ranges::fill(mayHold_, 0);
+    used_ = 0;
   }
   std::size_t bytes() const { return slots_.size() * sizeof(Slot) + kWords * sizeof(uint64_t); }
 

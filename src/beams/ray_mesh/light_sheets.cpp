@@ -41,13 +41,21 @@ bool isOneWay(const std::vector<PathNode>& nodes, const Sheet& sheet) {
 
 }  // namespace
 
-LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const RayMeshSettings& settingsOf)
+LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const RayMeshSettings& settingsOf,
+                         SheetMemory& memoryOf)
     : tree(sceneOf, rayScene, settingsOf.paths, settingsOf.target),
       scene_(sceneOf),
       rays_(rayScene),
       settings_(settingsOf),
       lights_(lightOntoCasters(sceneOf, rayScene, tree.media())),
-      middles_(lights_.size()) {
+      memory_(memoryOf),
+      pending_(memoryOf.pending),
+      firstOfCorner_(memoryOf.firstOfCorner),
+      middles_(memoryOf.middles) {
+  pending_.clear();
+  firstOfCorner_.clear();
+  middles_.resize(lights_.size());
+  for (EdgeTable& table : middles_) table.clear();
   rims_.resize(scene_.meshes.size());
   for (const CasterLight& light : lights_) {
     const uint32_t mesh = scene_.objects[light.object].mesh;
@@ -91,19 +99,19 @@ void LightSheets::settleCorners() {
 }
 
 // All asked for goes on together, boundary by boundary.
-void LightSheets::reach(std::vector<Ask>& asks) {
+void LightSheets::reach(std::vector<PathAsk>& asks) {
   settleCorners();
   uint8_t farthest = 0;
-  for (Ask& ask : asks) {
+  for (PathAsk& ask : asks) {
     ask.node = firstOfCorner_[ask.corner];
     farthest = std::max(farthest, ask.generation);
   }
-  std::vector<uint32_t> fresh, asked, ahead;
+  std::vector<uint32_t>&fresh = memory_.fresh, &asked = memory_.asked, &ahead = memory_.ahead;
   for (uint8_t generation = 0; generation < farthest; ++generation) {
     fresh.clear();
     asked.clear();
     ahead.clear();
-    for (Ask& ask : asks) {
+    for (PathAsk& ask : asks) {
       if (ask.generation <= generation) continue;
       const PathNode& node = tree.nodes[ask.node];
       if (node.state != PathState::atCaster || node.generation != generation) continue;
@@ -132,12 +140,6 @@ vec3 LightSheets::fluxOf(const Sheet& sheet) const {
                 cornerPosition(sheet, sheet.weights[2]));
 }
 
-void LightSheets::setFluxes(std::span<Sheet> sheets) const {
-  oneapi::tbb::parallel_for(IndexRange(0, sheets.size(), kGrain), [&](const IndexRange& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) sheets[i].flux = fluxOf(sheets[i]);
-  });
-}
-
 // lm: the part of the incident flux that is `ofError` of the error. Of casters of so many triangles that the
 // bound on beams will be met, no less than what a beam then has in the mean.
 float LightSheets::leastFlux(float ofError) const {
@@ -146,50 +148,70 @@ float LightSheets::leastFlux(float ofError) const {
   return std::max(ofError * settings_.error, bounded) * float(stats.incidentFlux);
 }
 
-std::vector<Sheet> LightSheets::firstSheets() {
-  std::vector<Sheet> sheets, forced[kMaximumForcedCuts + 1];
+// Those that get light, in the order of the triangles.
+std::vector<Sheet> LightSheets::sheetsOfTriangles(uint32_t lightIndex) const {
+  const CasterLight& light = lights_[lightIndex];
+  const Object& object = scene_.objects[light.object];
+  const Mesh& mesh = scene_.meshOf(object);
+  std::vector<vec3> positions(mesh.positions.size());
+  oneapi::tbb::parallel_for(IndexRange(0, positions.size(), 4096), [&](const IndexRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      positions[i] = object.placement.point(mesh.positions[i]);
+  });
+  std::vector<Sheet> sheets(mesh.triangles.size());
+  oneapi::tbb::parallel_for(IndexRange(0, sheets.size(), kGrain), [&](const IndexRange& range) {
+    for (std::size_t t = range.begin(); t < range.end(); ++t) {
+      Sheet& sheet = sheets[t];
+      sheet.triangle = uint32_t(t);
+      sheet.light = lightIndex;
+      sheet.weights[0] = vec2(0);
+      sheet.weights[1] = vec2(1, 0);
+      sheet.weights[2] = vec2(0, 1);
+      const uvec3 corners = mesh.triangles[t];
+      sheet.flux = fluxOf(sheet, positions[corners.x], positions[corners.y], positions[corners.z]);
+    }
+  });
+  std::erase_if(sheets, [](const Sheet& sheet) { return !(sheet.flux.x + sheet.flux.y + sheet.flux.z > 0); });
+  return sheets;
+}
+
+void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
+  std::vector<Sheet> forced[kMaximumForcedCuts + 1];
   std::vector<uint32_t> cornerOf;
   for (uint32_t index = 0; index < uint32_t(lights_.size()); ++index) {
-    const Object& object = scene_.objects[lights_[index].object];
-    const Mesh& mesh = scene_.meshOf(object);
+    const Mesh& mesh = scene_.meshOf(scene_.objects[lights_[index].object]);
     const float extent = boundingBox(mesh).diagonal();
-    std::vector<Sheet> all(mesh.triangles.size());
-    for (uint32_t t = 0; t < all.size(); ++t) {
-      all[t].triangle = t;
-      all[t].light = index;
-      all[t].weights[0] = vec2(0);
-      all[t].weights[1] = vec2(1, 0);
-      all[t].weights[2] = vec2(0, 1);
-    }
-    setFluxes(all);
-    std::erase_if(all, [](const Sheet& sheet) { return !(sheet.flux.x + sheet.flux.y + sheet.flux.z > 0); });
     cornerOf.assign(mesh.positions.size(), kNone);
-    for (Sheet& sheet : all) {
+    for (Sheet& sheet : sheetsOfTriangles(index)) {
       stats.incidentFlux += double(luminanceOf(sheet.flux));
       for (int i = 0; i < 3; ++i) {
         uint32_t& corner = cornerOf[mesh.triangles[sheet.triangle][i]];
         if (corner == kNone) corner = addCorner({index, sheet.triangle, sheet.weights[i]});
         sheet.node[i] = corner;  // until it is settled
       }
-      forced[firstCutsFor(mesh, mesh.triangles[sheet.triangle], extent)].push_back(sheet);
+      const uint32_t cuts = firstCutsFor(mesh, mesh.triangles[sheet.triangle], extent);
+      (cuts == 0 ? sheets : forced[cuts]).push_back(sheet);
     }
   }
   settleCorners();
-  for (std::vector<Sheet>& some : forced)
+  const auto setNodes = [&](std::vector<Sheet>& some) {
     for (Sheet& sheet : some)
       for (uint32_t& node : sheet.node) node = firstOfCorner_[node];
+  };
+  setNodes(sheets);
+  for (std::vector<Sheet>& some : forced) setNodes(some);
   for (std::size_t cuts = kMaximumForcedCuts; cuts > 0; --cuts) {
-    cut(forced[cuts], forced[cuts - 1]);
-    for (Sheet& sheet : forced[cuts - 1]) sheet.cuts = 0;
+    std::vector<Sheet>& parts = cuts == 1 ? sheets : forced[cuts - 1];
+    cut(forced[cuts], parts);
+    for (Sheet& sheet : parts) sheet.cuts = 0;
   }
-  firstSheets_ = forced[0].size();
-  return std::move(forced[0]);
+  firstSheets_ = sheets.size();
 }
 
 void LightSheets::cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts) {
   if (sheets.empty()) return;
-  std::vector<Ask> asks;
-  asks.reserve(3 * sheets.size());
+  std::vector<PathAsk>& asks = memory_.cutAsks;
+  asks.clear();
   for (const Sheet& sheet : sheets)
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
@@ -250,13 +272,13 @@ bool LightSheets::isElsewhere(const Sheet& sheet) const {
   return ended < sheet.generation && (sheet.aside >> ended) != 0;
 }
 
-void LightSheets::follow(std::vector<Sheet> sheets, std::vector<Sheet>& landed, Progress& progress) {
-  std::vector<Sheet> onward, mixed, next;
+void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed, Progress& progress) {
+  std::vector<Sheet>&mixed = memory_.mixed, &next = memory_.next;
   while (!sheets.empty()) {
     progress.advance();
-    onward.clear();
     mixed.clear();
     next.clear();
+    memory_.fresh.clear();
     for (const Sheet& sheet : sheets) {
       if (!isOneWay(tree.nodes, sheet)) {
         mixed.push_back(sheet);
@@ -264,7 +286,7 @@ void LightSheets::follow(std::vector<Sheet> sheets, std::vector<Sheet>& landed, 
       }
       const PathNode& node = tree.nodes[sheet.node[0]];
       if (node.state == PathState::atCaster) {
-        onward.push_back(sheet);
+        expand(sheet, next);
       } else if (isElsewhere(sheet)) {
         continue;
       } else if (node.state == PathState::arrived) {
@@ -273,49 +295,47 @@ void LightSheets::follow(std::vector<Sheet> sheets, std::vector<Sheet>& landed, 
         stats.lostFlux += double(luminanceOf(carried(sheet)));
       }
     }
-    expand(onward, next);
+    traceChildren(next);
     part(mixed, next);
     sheets.swap(next);
   }
 }
 
-void LightSheets::expand(std::span<const Sheet> sheets, std::vector<Sheet>& next) {
-  if (sheets.empty()) return;
-  std::vector<Sheet> children;
-  std::vector<uint32_t> fresh;
-  children.reserve(2 * sheets.size());
-  for (const Sheet& sheet : sheets) {
-    const PathNode& node = tree.nodes[sheet.node[0]];
-    const uint32_t ways = tree.waysFrom(node);
-    // A sheet whose paths turned out to be at an earlier boundary goes on from there.
-    const uint8_t generation = node.generation;
-    for (const uint8_t way : {kTransmitted, kReflected}) {
-      if (!(ways >> way & 1u)) continue;
-      if (generation < sheet.generation && uint8_t(sheet.path >> generation & 1u) != way && ways == 3u)
-        continue;
-      Sheet child = sheet;
-      child.generation = uint8_t(generation + 1);
-      const uint64_t below = (uint64_t{1} << generation) - 1;
-      child.path = (sheet.path & below) | uint64_t(way) << generation;
-      const bool isFirst = way == kTransmitted || !(ways & 1u);
-      child.aside = (sheet.aside & below) | uint64_t(!isFirst) << generation;
-      if (sheet.cuts == kWhole) {
-        child.node[0] = child.node[1] = child.node[2] = tree.childOf(sheet.node[0], way, fresh);
-        child.bend *= kSpreadAtBoundary;
-      } else {
-        for (uint32_t& at : child.node) at = tree.childOf(at, way, fresh);
-      }
-      children.push_back(child);
+// Its children's paths are new, to be bent and traced.
+void LightSheets::expand(const Sheet& sheet, std::vector<Sheet>& children) {
+  const PathNode& node = tree.nodes[sheet.node[0]];
+  const uint32_t ways = tree.waysFrom(node);
+  // A sheet whose paths turned out to be at an earlier boundary goes on from there.
+  const uint8_t generation = node.generation;
+  for (const uint8_t way : {kTransmitted, kReflected}) {
+    if (!(ways >> way & 1u)) continue;
+    if (generation < sheet.generation && uint8_t(sheet.path >> generation & 1u) != way && ways == 3u)
+      continue;
+    Sheet& child = children.emplace_back(sheet);
+    child.generation = uint8_t(generation + 1);
+    const uint64_t below = (uint64_t{1} << generation) - 1;
+    child.path = (sheet.path & below) | uint64_t(way) << generation;
+    const bool isFirst = way == kTransmitted || !(ways & 1u);
+    child.aside = (sheet.aside & below) | uint64_t(!isFirst) << generation;
+    if (sheet.cuts == kWhole) {
+      child.node[0] = child.node[1] = child.node[2] = tree.childOf(sheet.node[0], way, memory_.fresh);
+      child.bend *= kSpreadAtBoundary;
+    } else {
+      for (uint32_t& at : child.node) at = tree.childOf(at, way, memory_.fresh);
     }
   }
-  tree.bend(fresh);
+}
+
+// Those that are worth it; the others are left out.
+void LightSheets::traceChildren(std::vector<Sheet>& children) {
+  tree.bend(memory_.fresh);
   prune(children);
   chooseAmongWeak(children);
-  std::vector<uint32_t> ahead;
+  std::vector<uint32_t>& ahead = memory_.ahead;
+  ahead.clear();
   for (const Sheet& child : children)
     for (const uint32_t node : child.node) tree.queue(node, ahead);
   tree.trace(ahead);
-  next.insert(next.end(), children.begin(), children.end());
 }
 
 // Leaves branches out that carry little of the light that fed them, the weakest first, as far as the error

@@ -35,16 +35,42 @@ struct Sheet {
 // Cuts of a sheet of one path alone, which is not cut.
 inline constexpr uint8_t kWhole = 255;
 
+// A corner that is not yet traced.
+struct NewCorner {
+  uint32_t light = 0;
+  uint32_t triangle = 0;
+  vec2 weights{0};
+};
+
+// A path that is asked for.
+struct PathAsk {
+  uint32_t corner = 0;
+  uint64_t path = 0;
+  uint8_t generation = 0;
+  uint32_t node = kNone;  // what is found: where the path stands, or where it ended before
+};
+
+// Lists that each picture needs anew. Kept, so that their memory need not be asked for again.
+struct SheetMemory {
+  std::vector<NewCorner> pending;
+  std::vector<uint32_t> firstOfCorner;
+  std::vector<EdgeTable> middles;
+  std::vector<PathAsk> cutAsks;
+  std::vector<uint32_t> fresh, asked, ahead;
+  std::vector<Sheet> sheets, next, mixed, landed, worst;
+};
+
 class LightSheets {
  public:
-  LightSheets(const Scene& scene, const RayScene& rays, const RayMeshSettings& settings);
+  // All must outlive this.
+  LightSheets(const Scene& scene, const RayScene& rays, const RayMeshSettings& settings, SheetMemory& memory);
 
-  // The sheets at the casters' own triangles.
-  std::vector<Sheet> firstSheets();
+  // The sheets at the casters' own triangles, which are appended.
+  void addFirstSheets(std::vector<Sheet>& sheets);
 
-  // Follows sheets whose paths are traced up to where they stand, until they land. What lands is appended to
-  // `landed`, in an order that does not depend on the number of threads.
-  void follow(std::vector<Sheet> sheets, std::vector<Sheet>& landed, Progress& progress);
+  // Follows sheets whose paths are traced up to where they stand, until they land. None are left; what lands
+  // is appended to `landed`, in an order that does not depend on the number of threads.
+  void follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed, Progress& progress);
 
   // Cuts each of the sheets in four; the parts stand where the sheets stood, with their paths traced.
   void cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts);
@@ -64,29 +90,19 @@ class LightSheets {
   RayMeshStats stats;
 
  private:
-  struct Ask {
-    uint32_t corner = 0;
-    uint64_t path = 0;
-    uint8_t generation = 0;
-    uint32_t node = kNone;  // what is found: where the path stands, or where it ended before
-  };
-  struct NewCorner {
-    uint32_t light = 0;
-    uint32_t triangle = 0;
-    vec2 weights{0};
-  };
   struct SideCut;
 
   uint32_t addCorner(const NewCorner& corner);
   void settleCorners();
-  void reach(std::vector<Ask>& asks);
+  void reach(std::vector<PathAsk>& asks);
   uint32_t middleOf(const Sheet& sheet, int side) const;
   void addConforming(const Sheet& sheet, std::vector<Sheet>& conforming) const;
   vec3 cornerPosition(const Sheet& sheet, vec2 weights) const;
   vec3 fluxOf(const Sheet& sheet) const;
   vec3 fluxOf(const Sheet& sheet, vec3 a, vec3 b, vec3 c) const;
-  void setFluxes(std::span<Sheet> sheets) const;
-  void expand(std::span<const Sheet> sheets, std::vector<Sheet>& next);
+  std::vector<Sheet> sheetsOfTriangles(uint32_t light) const;
+  void expand(const Sheet& sheet, std::vector<Sheet>& children);
+  void traceChildren(std::vector<Sheet>& children);
   void prune(std::vector<Sheet>& sheets);
   void chooseAmongWeak(std::vector<Sheet>& children);
   void part(std::span<const Sheet> mixed, std::vector<Sheet>& next);
@@ -103,9 +119,10 @@ class LightSheets {
   std::vector<CasterLight> lights_;
   std::vector<std::optional<FacetRims>> rims_;  // of the meshes of casters
   std::size_t firstSheets_ = 0;
-  std::vector<NewCorner> pending_;
-  std::vector<uint32_t> firstOfCorner_;  // node; kNone until it is settled
-  std::vector<EdgeTable> middles_;       // by light
+  SheetMemory& memory_;
+  std::vector<NewCorner>& pending_;
+  std::vector<uint32_t>& firstOfCorner_;  // node; kNone until it is settled
+  std::vector<EdgeTable>& middles_;       // by light
 };
 
 }  // namespace nephroid

@@ -169,7 +169,7 @@ void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
       sides.push_back(side);
     }
   }
-  std::vector<Ask> asks;
+  std::vector<PathAsk> asks;
   std::vector<uint32_t> asking;
   for (int halving = 0; halving < mostHalvings; ++halving) {
     asks.clear();

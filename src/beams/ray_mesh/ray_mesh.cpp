@@ -53,8 +53,8 @@ struct Around {
 
 class Refinement {
  public:
-  Refinement(LightSheets& sheetsOf, const RayMeshSettings& settingsOf)
-      : sheets_(sheetsOf), settings_(settingsOf) {}
+  Refinement(LightSheets& sheetsOf, const RayMeshSettings& settingsOf, SheetMemory& memoryOf)
+      : sheets_(sheetsOf), settings_(settingsOf), memory_(memoryOf) {}
 
   void run(std::vector<Sheet>& landed, Progress& progress) {
     for (int level = 0;; ++level) {
@@ -83,6 +83,7 @@ class Refinement {
   void include(const Sheet& sheet, const Landing& landing, int sign);
   Landing landingOf(const Sheet& sheet) const;
   double allowedSquares();
+  double areaOfMost(double flux) const;
   double judge(const std::vector<Sheet>& landed);
   double errorSquares(const Sheet& sheet, const Landing& landing) const;
   float steepness(const Sheet& sheet, const Landing& landing) const;
@@ -97,6 +98,7 @@ class Refinement {
 
   LightSheets& sheets_;
   const RayMeshSettings& settings_;
+  SheetMemory& memory_;
   std::vector<Landing> landings_;
   std::vector<Around> around_;  // by node
   float litArea_ = 0;           // m2
@@ -157,26 +159,37 @@ void Refinement::include(const Sheet& sheet, const Landing& landing, int sign) {
   }
 }
 
+// m2 where nine tenths of the light land, the densest first.
+double Refinement::areaOfMost(double flux) const {
+  constexpr int kBuckets = 1024;
+  constexpr float kBucketsAnOctave = 16, kMiddle = kBuckets / 2;
+  double areaIn[kBuckets] = {}, fluxIn[kBuckets] = {};
+  double whole = 0;
+  for (const Landing& landing : landings_) whole += double(landing.area);
+  const float unit = float(flux / std::max(whole, 1e-30));
+  for (const Landing& landing : landings_) {
+    const float density = landing.luminance / std::max(landing.area, landing.detail * landing.detail);
+    if (!(density > 0)) continue;
+    const float bucket = kMiddle - kBucketsAnOctave * std::log2(density / unit);
+    const int i = int(std::clamp(bucket, 0.0f, float(kBuckets - 1)));
+    areaIn[i] += double(landing.area);
+    fluxIn[i] += double(landing.luminance);
+  }
+  double area = 0, sum = 0;
+  for (int i = 0; i < kBuckets && sum <= 0.9 * flux; ++i) {
+    area += areaIn[i];
+    sum += fluxIn[i];
+  }
+  return area;
+}
+
 // What the squares of the error, times the areas where they are made, may add up to: (lm/m2)^2 m2.
 double Refinement::allowedSquares() {
   double flux = 0;
   for (const Landing& landing : landings_)
     if (landing.isWanted) flux += double(landing.luminance);
   double area = double(settings_.area);
-  if (area <= 0) {
-    std::vector<std::pair<float, uint32_t>> order;
-    for (uint32_t i = 0; i < landings_.size(); ++i)
-      order.emplace_back(
-          -landings_[i].luminance / std::max(landings_[i].area, landings_[i].detail * landings_[i].detail),
-          i);
-    std::ranges::sort(order);
-    double sum = 0;
-    for (const auto& [density, i] : order) {
-      area += double(landings_[i].area);
-      sum += double(landings_[i].luminance);
-      if (sum > 0.9 * flux) break;
-    }
-  }
+  if (area <= 0) area = areaOfMost(flux);
   litArea_ = float(area);
   mean_ = flux / std::max(area, 1e-30);
   return std::pow(double(settings_.error) * mean_, 2) * area;
@@ -251,7 +264,9 @@ bool Refinement::cutWorst(std::vector<Sheet>& landed, double squares, Progress& 
     }
     room -= std::min(room, countInBucket[bucket]);
   }
-  std::vector<Sheet> worst, parts;
+  std::vector<Sheet>&worst = memory_.worst, &parts = memory_.sheets;
+  worst.clear();
+  parts.clear();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < landed.size(); ++i) {
     if (errors_[i] > 0 && bucketOf(errors_[i]) < last) {
@@ -266,7 +281,7 @@ bool Refinement::cutWorst(std::vector<Sheet>& landed, double squares, Progress& 
   landings_.resize(kept);
   if (worst.empty()) return false;
   sheets_.cut(worst, parts);
-  sheets_.follow(std::move(parts), landed, progress);
+  sheets_.follow(parts, landed, progress);
   return true;
 }
 
@@ -363,13 +378,18 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) const {
 void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSettings& settings,
                   Progress& progress, RayMesh& mesh) {
   progress.begin("beams", 0);
-  LightSheets sheets(scene, rays, settings);
+  if (!mesh.memory) mesh.memory = std::make_shared<SheetMemory>();
+  SheetMemory& memory = *mesh.memory;
+  LightSheets sheets(scene, rays, settings, memory);
   sheets.tree.nodes = std::move(mesh.nodes);
   sheets.tree.nodes.clear();
   mesh.beams.clear();
-  std::vector<Sheet> landed;
-  sheets.follow(sheets.firstSheets(), landed, progress);
-  Refinement refinement(sheets, settings);
+  std::vector<Sheet>& landed = memory.landed;
+  landed.clear();
+  memory.sheets.clear();
+  sheets.addFirstSheets(memory.sheets);
+  sheets.follow(memory.sheets, landed, progress);
+  Refinement refinement(sheets, settings, memory);
   refinement.run(landed, progress);
   sheets.conform(landed);
   refinement.describeAnew(landed);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "beams/ray_mesh/path_tree.h"
@@ -60,10 +61,13 @@ struct RayMeshStats {
   std::array<uint64_t, kToldLevels> beamsByBranch{};  // by the boundaries that they crossed
 };
 
+struct SheetMemory;
+
 struct RayMesh {
   std::vector<PathNode> nodes;
   std::vector<LandedBeam> beams;
   RayMeshStats stats;
+  std::shared_ptr<SheetMemory> memory;  // to be used again
 };
 
 // Makes `mesh` anew; what it held before is gone, and its memory is used again. The same bytes for any number
