@@ -23,7 +23,7 @@ constexpr float kWidestPath = 1.0f / 8;
 // Of the mean of what is lit, the brightest that one path may be, so that it is not seen as a speck.
 constexpr float kBrightestPath = 0.02f;
 // Texels that a beam has across and along, at most.
-constexpr float kTexelsAcross = 3, kTexelsAlong = 16;
+constexpr float kTexelsAcross = 2.5f, kTexelsAlong = 12;
 // Area and side of a triangle whose corners are 1 off its middle.
 constexpr double kTangentArea = 1.299;
 constexpr float kSideOfTangent = 1.732f;

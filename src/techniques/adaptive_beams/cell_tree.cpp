@@ -37,22 +37,27 @@ CellTree::CellTree(LandedLight& light, const RayMesh& mesh, const std::vector<Fa
               grid.origin + grid.cellSize * vec3(float(x), float(y), float(z)), grid.cellSize, uint8_t(face),
               0};
 
-  grant(wishes([&](const FacedBeam& one, const Bounds& bounds, std::vector<Wish>& asked) {
+  bounds_.resize(faced_.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, (faced_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const std::size_t end = std::min(faced_.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i) bounds_[i] = boundsOf(faced_[i]);
+  });
+  grant(wishes([&](const FacedBeam& one, const Bounds& bounds, WishList& asked) {
     const float size = sizeAt(one.level);
     forCells(bounds, one.level, [&](uvec3 at) {
       if (bounds.meets(grid.origin + size * vec3(at), size))
-        asked.push_back({one.level, one.face, packed(at), mesh_.beams[one.beam].object});
+        asked.add({one.level, one.face, packed(at), mesh_.beams[one.beam].object});
     });
   }));
   for (uint32_t round = 0; round < kLevelsToPart && markShared(); ++round)
-    grant(wishes([&](const FacedBeam& one, const Bounds& bounds, std::vector<Wish>& asked) {
+    grant(wishes([&](const FacedBeam& one, const Bounds& bounds, WishList& asked) {
       forCells(bounds, one.level, [&](uvec3 at) { askWithin(cellAt(one, at), at, one, bounds, asked); });
     }));
 }
 
 // For the cells within shared ones, where they are not yet there.
 void CellTree::askWithin(uint32_t cell, uvec3 at, const FacedBeam& faced, const Bounds& bounds,
-                         std::vector<Wish>& asked) const {
+                         WishList& asked) const {
   const CellPlace& place = places[cell];
   const uint32_t toPart = mesh_.beams[faced.beam].isPath ? kLevelsToPartPaths : kLevelsToPart;
   if (!place.isShared || place.level < faced.level || place.level >= faced.level + toPart) return;
@@ -60,7 +65,7 @@ void CellTree::askWithin(uint32_t cell, uvec3 at, const FacedBeam& faced, const 
     const CellPlace child = childPlace(cell, octant);
     if (!bounds.meets(child.low, child.size)) continue;
     const uvec3 there = 2u * at + uvec3(octant & 1u, octant >> 1 & 1u, octant >> 2);
-    asked.push_back({child.level, faced.face, packed(there), mesh_.beams[faced.beam].object});
+    asked.add({child.level, faced.face, packed(there), mesh_.beams[faced.beam].object});
     if (const uint32_t known = light_.cells[cell].children[octant])
       askWithin(known, there, faced, bounds, asked);
   }
@@ -153,8 +158,10 @@ std::vector<CellTree::Wish> CellTree::wishes(const Ask& ask) const {
   };
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {
     const std::size_t end = std::min(faced_.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) ask(faced_[i], boundsOf(faced_[i]), chunks[chunk]);
-    sortOut(chunks[chunk]);
+    WishList asked;
+    for (std::size_t i = chunk * kChunk; i < end; ++i) ask(faced_[i], bounds_[i], asked);
+    sortOut(asked.wishes);
+    chunks[chunk] = std::move(asked.wishes);
   });
   std::vector<Wish> all;
   for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
@@ -227,7 +234,7 @@ std::vector<PlacedBeam> CellTree::place() const {
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {
     const std::size_t end = std::min(faced_.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      const Bounds bounds = boundsOf(faced_[i]);
+      const Bounds& bounds = bounds_[i];
       forCells(bounds, faced_[i].level, [&](uvec3 at) {
         const uint32_t cell = cellAt(faced_[i], at);
         if (places[cell].level == faced_[i].level) placeIn(cell, uint32_t(i), bounds, chunks[chunk]);

@@ -1,6 +1,7 @@
 // The cells of landed light while it is made: an octree for each face, as fine as the beams that land in it.
 #pragma once
 
+#include <array>
 #include <tuple>
 #include <vector>
 
@@ -64,10 +65,10 @@ class CellTree {
   };
   // A cell that a beam asks for, and the object that the beam lands on.
   struct Wish {
-    uint8_t level;
-    uint8_t face;
-    uint64_t place;  // 21 bits each of x, y and z, in cells of its level
-    uint32_t object;
+    uint8_t level = 0;
+    uint8_t face = 0;
+    uint64_t place = 0;  // 21 bits each of x, y and z, in cells of its level
+    uint32_t object = kNone;
     bool operator==(const Wish&) const = default;
     bool operator<(const Wish& other) const {
       return std::tie(level, face, place, object) <
@@ -77,6 +78,22 @@ class CellTree {
       constexpr uint64_t kMask = (1u << 21) - 1;
       return {uint32_t(place & kMask), uint32_t(place >> 21 & kMask), uint32_t(place >> 42)};
     }
+  };
+
+  // Cells that are asked for. Beams next to each other ask for the same: most repetitions are left out.
+  class WishList {
+   public:
+    void add(const Wish& wish) {
+      Wish& recent = recent_[(wish.place * 0x9e3779b97f4a7c15u >> 40 ^ wish.level) % kRecent];
+      if (recent == wish) return;
+      recent = wish;
+      wishes.push_back(wish);
+    }
+    std::vector<Wish> wishes;
+
+   private:
+    static constexpr std::size_t kRecent = 256;
+    std::array<Wish, kRecent> recent_{};
   };
 
   Bounds boundsOf(const FacedBeam& faced) const;
@@ -91,13 +108,14 @@ class CellTree {
   void addCell(const Wish& wish);
   bool markShared();
   void askWithin(uint32_t cell, uvec3 at, const FacedBeam& faced, const Bounds& bounds,
-                 std::vector<Wish>& asked) const;
+                 WishList& asked) const;
   CellPlace childPlace(uint32_t cell, uint32_t octant) const;
   void placeIn(uint32_t cell, uint32_t index, const Bounds& bounds, std::vector<PlacedBeam>& placed) const;
 
   LandedLight& light_;
   const RayMesh& mesh_;
   const std::vector<FacedBeam>& faced_;
+  std::vector<Bounds> bounds_;  // of each of them
 };
 
 }  // namespace nephroid

@@ -17,13 +17,6 @@ glm::dvec2 exactly(vec2 v) {
   return {double(v.x), double(v.y)};
 }
 
-// The integral of max(t - x, 0) over x from `low` to `high`.
-double coveredBefore(double t, double low, double high) {
-  if (t <= low) return 0;
-  if (t >= high) return (high - low) * (t - 0.5 * (low + high));
-  return 0.5 * (t - low) * (t - low);
-}
-
 }  // namespace
 
 void TileDeposit::begin(uvec2 size) {
@@ -50,39 +43,81 @@ void TileDeposit::add(vec2 a, vec2 b, vec2 c, vec3 density, vec3 flux) {
   }
   // Sides of a triangle that turns left add up to what it covers; of another, to its negative.
   const double scale = -2 / doubled;
-  const std::array<double, 3> light{scale * double(flux.x), scale * double(flux.y), scale * double(flux.z)};
+  const Light light{scale * double(flux.x), scale * double(flux.y), scale * double(flux.z)};
   addSide(p, q, slope, light);
   addSide(q, r, slope, light);
   addSide(r, p, slope, light);
 }
 
-void TileDeposit::addSide(glm::dvec2 from, glm::dvec2 to, const Slope& slope,
-                          const std::array<double, 3>& flux) {
+void TileDeposit::addSide(glm::dvec2 from, glm::dvec2 to, const Slope& slope, const Light& flux) {
   if (from.y == to.y) return;
-  const double sign = from.y < to.y ? 1 : -1;
-  if (from.y > to.y) std::swap(from, to);
-  const double alongX = (to.x - from.x) / (to.y - from.y);
-  const double first = std::max(from.y, 0.0), last = std::min(to.y, double(size_.y));
+  Side side{from, to, slope, flux};
+  if (from.y > to.y) {
+    std::swap(side.from, side.to);
+    for (double& color : side.flux) color = -color;
+  }
+  side.alongX = (side.to.x - side.from.x) / (side.to.y - side.from.y);
+  const double first = std::max(side.from.y, 0.0), last = std::min(side.to.y, double(size_.y));
   if (first >= last) return;
-  const double width = double(size_.x), rise = sign * slope.x;
-  Sums light{0, 0, 0, flux[0] * rise, flux[1] * rise, flux[2] * rise};
-  double y = first, x = from.x + (first - from.y) * alongX;
-  Sums* row = differences_.data() + std::size_t(first) * stride_;
-  for (double nextRow = double(int(first) + 1); y < last; nextRow += 1, row += stride_) {
-    const double nextY = std::min(nextRow, last);
-    const double nextX = nextY == to.y ? to.x : from.x + (nextY - from.y) * alongX;
-    const double atRow = sign * (slope.base + slope.y * (nextRow - 1)), height = nextY - y;
-    for (std::size_t c = 0; c < 3; ++c) light[c] = flux[c] * atRow;
-    const double low = std::min(x, nextX), high = std::max(x, nextX);
-    const int column = int(std::clamp(low, 0.0, width));
-    if (high <= double(column)) {
-      addAt(row[column], height, light);
-    } else if (low >= 0 && high <= double(column + 1) && low < width) {
+  const double width = double(size_.x);
+  // Where the side comes into the tile, and where it leaves it.
+  const auto rowWhere = [&](double x) {
+    return std::clamp(side.from.y + (x - side.from.x) / side.alongX, first, last);
+  };
+  if (side.alongX > 0) {
+    const double in = side.from.x < 0 ? rowWhere(0) : first;
+    addOnLeft(side, first, in);
+    addInside(side, in, side.to.x > width ? rowWhere(width) : last);
+  } else if (side.alongX < 0) {
+    const double out = side.to.x < 0 ? rowWhere(0) : last;
+    addInside(side, side.from.x > width ? rowWhere(width) : first, out);
+    addOnLeft(side, out, last);
+  } else if (side.from.x < 0) {
+    addOnLeft(side, first, last);
+  } else if (side.from.x < width) {
+    addInside(side, first, last);
+  }
+}
+
+// Of a fully covered texel of the row.
+inline TileDeposit::Sums TileDeposit::lightOf(const Side& side, double row) {
+  const double atRow = side.slope.base + side.slope.y * row, rise = side.slope.x;
+  const Light& flux = side.flux;
+  return {Pair{flux[0] * atRow, flux[1] * atRow}, Pair{flux[2] * atRow, flux[0] * rise},
+          Pair{flux[1] * rise, flux[2] * rise}};
+}
+
+// A part of a side that is to the left of the tile.
+void TileDeposit::addOnLeft(const Side& side, double first, double last) {
+  std::size_t row = std::size_t(first);
+  for (double y = first; y < last; ++row) {
+    const double next = std::min(double(row + 1), last);
+    addAt(differences_[row * stride_], next - y, lightOf(side, double(row)));
+    y = next;
+  }
+}
+
+// A part of a side that is in the tile.
+void TileDeposit::addInside(const Side& side, double first, double last) {
+  const double width = double(size_.x);
+  const auto columnAt = [&](double y) {
+    return std::clamp(side.from.x + (y - side.from.y) * side.alongX, 0.0, width);
+  };
+  std::size_t row = std::size_t(first);
+  double x = columnAt(first);
+  for (double y = first; y < last; ++row) {
+    const double nextY = std::min(double(row + 1), last);
+    const double nextX = nextY == side.to.y ? std::clamp(side.to.x, 0.0, width) : columnAt(nextY);
+    const double low = std::min(x, nextX), high = std::max(x, nextX), height = nextY - y;
+    const std::size_t column = std::min(std::size_t(low), std::size_t(size_.x - 1));
+    Sums* sums = differences_.data() + row * stride_;
+    const Sums light = lightOf(side, double(row));
+    if (high <= double(column + 1)) {
       const double outside = (0.5 * (low + high) - double(column)) * height;
-      addAt(row[column], height - outside, light);
-      addAt(row[column + 1], outside, light);
-    } else if (low < width) {
-      addLongSide(row, low, high, height, light);
+      addAt(sums[column], height - outside, light);
+      addAt(sums[column + 1], outside, light);
+    } else {
+      addLongSide(sums, low, high, height, light);
     }
     y = nextY;
     x = nextX;
@@ -91,25 +126,25 @@ void TileDeposit::addSide(glm::dvec2 from, glm::dvec2 to, const Slope& slope,
 
 // What lies to the right of a side that is `height` high in the row, between the columns x0 and x1.
 void TileDeposit::addLongSide(Sums* row, double x0, double x1, double height, const Sums& light) const {
-  const std::size_t first = std::size_t(std::max(x0, 0.0));
   const double perWidth = height / (x1 - x0);
-  double before = coveredBefore(double(first), x0, x1), covered = 0;
-  for (std::size_t column = first; column <= size_.x; ++column) {
-    const double after = coveredBefore(double(column + 1), x0, x1);
-    const double now = (after - before) * perWidth;
-    addAt(row[column], now - covered, light);
-    if (double(column) >= x1) return;
-    before = after;
-    covered = now;
+  const std::size_t first = std::size_t(x0), last = std::min(std::size_t(x1), std::size_t(size_.x) - 1);
+  double before = 0;  // of the texel to the left: the part that is to the right of the side
+  for (std::size_t column = first; column <= last; ++column) {
+    const double right = double(column + 1);
+    const double from = std::max(x0, right - 1), to = std::min(x1, right);
+    // Up to `from` all of the texel is to the right of the side.
+    const double covered = ((from - x0) + (to - from) * (right - 0.5 * (from + to))) * perWidth;
+    addAt(row[column], covered - before, light);
+    before = covered;
   }
+  addAt(row[last + 1], height - before, light);
 }
 
 void TileDeposit::put(int x, int y, vec3 flux) {
   Sums* at = differences_.data() + std::size_t(y) * stride_ + std::size_t(x);
-  for (std::size_t i = 0; i < 3; ++i) {
-    at[0][i] += double(flux[int(i)]);
-    at[1][i] -= double(flux[int(i)]);
-  }
+  const Sums light{Pair{double(flux.x), double(flux.y)}, Pair{double(flux.z), 0}, Pair{0, 0}};
+  addAt(at[0], 1, light);
+  addAt(at[1], -1, light);
 }
 
 // A beam without width, along its longest side, as far as that is on the tile.
@@ -137,10 +172,13 @@ void TileDeposit::addTo(std::array<float*, 3> planes) const {
   for (std::size_t y = 0; y < size_.y; ++y) {
     Sums sum{};
     const Sums* row = differences_.data() + y * stride_;
+    const std::size_t first = y * size_.x;
     for (std::size_t x = 0; x < size_.x; ++x) {
-      for (std::size_t i = 0; i < kSums; ++i) sum[i] += row[x][i];
-      for (std::size_t c = 0; c < 3; ++c)
-        planes[c][y * size_.x + x] += std::max(float(sum[c] + double(x) * sum[3 + c]), 0.0f);
+      addAt(sum, 1, row[x]);
+      const double column = double(x);
+      const double light[3] = {sum[0][0] + column * sum[1][1], sum[0][1] + column * sum[2][0],
+                               sum[1][0] + column * sum[2][1]};
+      for (std::size_t c = 0; c < 3; ++c) planes[c][first + x] += std::max(float(light[c]), 0.0f);
     }
   }
 }

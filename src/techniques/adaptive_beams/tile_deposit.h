@@ -24,20 +24,32 @@ class TileDeposit {
   void addTo(std::array<float*, 3> planes) const;
 
  private:
-  static constexpr std::size_t kSums = 6;
-  // Red, green and blue light of a fully covered texel at column 0, and by how much it rises from one
+  // Two numbers that processors treat at once.
+  using Pair = double __attribute__((vector_size(16)));
+  // Red, green and blue light of a fully covered texel at column 0, and by how much they rise from one
   // column to the next. Double, since a bright beam's differences have to cancel.
-  using Sums = std::array<double, kSums>;
+  using Sums = std::array<Pair, 3>;
+  using Light = std::array<double, 3>;
   // Light of a beam over the tile: at the origin, and its rise along x and y.
   struct Slope {
     double base = 1;
     double x = 0, y = 0;
   };
+  // Down the tile.
+  struct Side {
+    glm::dvec2 from, to;
+    Slope slope;
+    Light flux;
+    double alongX = 0;  // columns for each row
+  };
 
-  void addSide(glm::dvec2 from, glm::dvec2 to, const Slope& slope, const std::array<double, 3>& flux);
+  void addSide(glm::dvec2 from, glm::dvec2 to, const Slope& slope, const Light& flux);
+  void addOnLeft(const Side& side, double first, double last);
+  void addInside(const Side& side, double first, double last);
   void addLongSide(Sums* row, double x0, double x1, double height, const Sums& light) const;
+  static Sums lightOf(const Side& side, double row);
   static void addAt(Sums& sums, double part, const Sums& light) {
-    for (std::size_t i = 0; i < kSums; ++i) sums[i] += part * light[i];
+    for (std::size_t i = 0; i < light.size(); ++i) sums[i] += part * light[i];
   }
   void addLine(vec2 a, vec2 b, vec2 c, vec3 flux);
   void put(int x, int y, vec3 flux);
