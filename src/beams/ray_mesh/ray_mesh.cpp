@@ -290,6 +290,7 @@ mat3 tangentFrame(vec3 normal, float radius) {
 
 void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) const {
   mesh.beams.reserve(landed.size());
+  mesh.paths.reserve(landed.size());
   for (std::size_t i = 0; i < landed.size(); ++i) {
     const Landing& landing = landings_[i];
     if (!landing.isWanted) continue;
@@ -321,6 +322,7 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) const {
     }
     beam.density = isSmooth ? 3.0f * density / (density.x + density.y + density.z) : vec3(1);
     mesh.beams.push_back(beam);
+    mesh.paths.push_back({{sheet.node[0], sheet.node[1], sheet.node[2]}, sheet.cuts});
     mesh.stats.landedFlux += double(landing.luminance);
     ++mesh.stats.beamsByLevel[std::min<std::size_t>(sheet.cuts, kToldLevels - 1)];
     ++mesh.stats.beamsByBranch[std::min<std::size_t>(sheet.generation, kToldLevels - 1)];
@@ -336,6 +338,7 @@ void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSetting
   sheets.tree.nodes = std::move(mesh.nodes);
   sheets.tree.nodes.clear();
   mesh.beams.clear();
+  mesh.paths.clear();
   std::vector<Sheet> landed;
   sheets.follow(sheets.firstSheets(), landed, progress);
   Refinement refinement(sheets, settings);
