@@ -23,8 +23,22 @@ Command addView(CLI::App& program) {
                    "End after this many frames; each is computed completely, as if a light had moved")
       ->check(CLI::Range(1u, 1000000u))
       ->type_name("N");
+  command
+      ->add_option("--show", options->shown,
+                   "What is shown over the picture or in its place, as by the keys 1 to 9 and C: " +
+                       joined(viewNames()) + "; several with commas")
+      ->delimiter(',')
+      ->check(oneOf(viewNames()))
+      ->type_name("VIEW,...");
+  command
+      ->add_option("--picture", options->picture,
+                   "Write what the window shows, without panels, as PNG, and end")
+      ->type_name("OUT.png");
   addStats(*command, options->stats);
-  return {command, [options] { runViewer(*options); }};
+  return {command, [options] {
+            if (!options->picture.empty()) checkOutput(options->picture, options->scene, {".png"});
+            runViewer(*options);
+          }};
 }
 
 }  // namespace nephroid

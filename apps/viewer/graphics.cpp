@@ -27,6 +27,10 @@ void Graphics::show(uvec2 framebufferSize) {
   swapchain_.show(screen_, framebufferSize);
 }
 
+ByteImage Graphics::screenPicture() {
+  return gpu::downloadPicture(device_, screen_);
+}
+
 void Graphics::remakePrograms() {
   auto outputs = std::make_unique<OutputView>(device_);
   if (stage) stage->remake();

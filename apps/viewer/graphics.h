@@ -24,6 +24,9 @@ class Graphics {
   // Draws the panels with their pictures, and shows the result in the window. `framebufferSize`: pixels.
   void show(uvec2 framebufferSize);
 
+  // What the window shows.
+  ByteImage screenPicture();
+
   // Creates again everything that draws the scene, with the present shaders. Where that fails it throws, and
   // nothing has changed.
   void remakePrograms();

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "report/false_color.h"
+#include "shown_views.h"
 #include "widgets.h"
 
 namespace nephroid {
@@ -15,7 +16,9 @@ void drawOverlayBoxes(ViewerState& state) {
     const char* name;
     const char* help;
   } kOverlayNames[kOverlays]{
-      {"Beams", "The corner rays of beams, from glass to the surface that they meet (1)"},
+      {"Beams",
+       "The corner rays of beams, from glass to the surface that they meet; of adaptive-beams the mesh of "
+       "rays, in the colors of how often it was cut (1)"},
       {"Planes", "Virtual planes, with their inner and outer windows (2)"},
       {"Slices", "Planes at which receivers behind glass are looked for (3)"},
       {"Cells", "The cells of irradiance volumes (4)"},
@@ -30,8 +33,16 @@ void drawOverlayBoxes(ViewerState& state) {
   }
 }
 
-bool hasOutput(const ViewerState& state, const std::string& pass) {
-  return std::ranges::find(state.outputs, pass, &PassOutput::pass) != state.outputs.end();
+void drawLevelsBox(ViewerState& state) {
+  const NamedView& levels = viewNamed("levels");
+  bool isShown = state.shown == Shown::output && state.shownPass == levels.pass;
+  ImGui::BeginDisabled(!outputOf(state, levels.pass, levels.output));
+  if (ImGui::Checkbox("Levels", &isShown)) {
+    state.shown = Shown::picture;
+    if (isShown) showView(levels, state);
+  }
+  ImGui::EndDisabled();
+  tooltip("Receivers in the colors of the cells of landed light that they read (C)");
 }
 
 // The next of the pass's outputs, and after the last the picture again.
@@ -54,7 +65,7 @@ void drawPass(ViewerState& state, const PassTime& pass, float scale) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const bool isShown = state.shown == Shown::output && state.shownPass == pass.name;
-  if (hasOutput(state, pass.name)) {
+  if (outputOf(state, pass.name, "")) {
     if (ImGui::Selectable(pass.name.c_str(), isShown)) showNext(state, pass.name);
     tooltip("Click to see what it leaves behind");
   } else {
@@ -132,6 +143,26 @@ void drawCulled(const BeamCounts& counts) {
                      percent(counts.occluded));
 }
 
+void drawColors(const Legend& legend, float scale) {
+  ImGui::TextUnformatted(legend.title.c_str());
+  if (!ImGui::BeginTable("colors", 3, ImGuiTableFlags_SizingFixedFit)) return;
+  const float side = ImGui::GetFontSize();
+  for (const Legend::Entry& entry : legend.entries) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        corner, {corner.x + 1.5f * side, corner.y + side},
+        ImGui::ColorConvertFloat4ToU32({entry.color.x, entry.color.y, entry.color.z, 1}));
+    ImGui::Dummy({1.5f * side, side});
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(entry.meaning.c_str());
+    ImGui::TableNextColumn();
+    textAtRight(std::to_string(entry.count) + " " + legend.counted, 96 * scale);
+  }
+  ImGui::EndTable();
+}
+
 }  // namespace
 
 void drawViewPanel(ViewerState& state) {
@@ -141,6 +172,8 @@ void drawViewPanel(ViewerState& state) {
   if (ImGui::Checkbox("Error", &isError)) state.shown = isError ? Shown::error : Shown::picture;
   tooltip("False colors of the relative error against the reference, and its number (E)");
   ImGui::SameLine(6.5f * ImGui::GetFontSize());
+  drawLevelsBox(state);
+  ImGui::SameLine(13 * ImGui::GetFontSize());
   ImGui::Checkbox("Times", &state.areTimesShown);
   tooltip("What the frame's passes take (T)");
   int divisor = static_cast<int>(state.divisor);
@@ -183,13 +216,19 @@ void drawLegend(const ViewerState& state, const Area& picture, float scale) {
   const bool isError = !state.isReferenceHeld && state.shown == Shown::error;
   const bool isOutput = !state.isReferenceHeld && state.shown == Shown::output;
   const bool isCulled = state.isOverlaid(Overlay::culled);
-  if (!state.isReferenceHeld && !isError && !isOutput && !isCulled && state.recording.empty()) return;
+  const bool isMesh = !state.meshLegend.entries.empty();
+  if (!state.isReferenceHeld && !isError && !isOutput && !isCulled && !isMesh && state.recording.empty())
+    return;
   ImGui::SetNextWindowPos({picture.corner.x + 8 * scale, picture.corner.y + 8 * scale});
   ImGui::SetNextWindowBgAlpha(0.75f);
   ImGui::Begin("legend", nullptr, kOverPicture);
   if (state.isReferenceHeld || isError) drawReference(state);
   if (isError) drawError(state);
-  if (isOutput) ImGui::Text("%s: %s", state.shownPass.c_str(), state.shownOutput.c_str());
+  if (isOutput && !state.outputLegend.entries.empty())
+    drawColors(state.outputLegend, scale);
+  else if (isOutput)
+    ImGui::Text("%s: %s", state.shownPass.c_str(), state.shownOutput.c_str());
+  if (isMesh) drawColors(state.meshLegend, scale);
   if (isCulled) drawCulled(state.beamCounts);
   if (!state.recording.empty()) ImGui::TextColored({1, 0.4f, 0.4f, 1}, "Recording (V ends it)");
   ImGui::End();

@@ -1,4 +1,4 @@
-#include "viewer.h"
+#include "viewer_loop.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -8,11 +8,12 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/image_io.h"
 #include "core/interrupt.h"
 #include "dialogs.h"
 #include "panels.h"
+#include "shown_views.h"
 #include "viewer/camera_control.h"
-#include "viewer_loop.h"
 
 namespace nephroid {
 namespace {
@@ -28,11 +29,12 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 // A run that is measured does not depend on how a window was left.
 ViewerPreferences preferencesFor(const ViewerOptions& options) {
   ViewerPreferences preferences;
-  if (options.frames == 0) preferences = loadPreferences(preferencesFile());
+  if (!endsByItself(options)) preferences = loadPreferences(preferencesFile());
   if (options.size.x > 0) {
     preferences.arePanelsShown = true;
     preferences.windowSize = options.size + uvec2(uint32_t(kPanelWidth), 0);
   }
+  if (!options.picture.empty()) preferences.arePanelsShown = preferences.areTimesShown = false;
   return preferences;
 }
 
@@ -45,9 +47,11 @@ Viewer::Viewer(const ViewerOptions& options, const ViewerPreferences& preference
       window_("nephroid", preferences.windowSize),
       graphics_(std::make_unique<Graphics>(window_, options)),
       framesToGo_(kFramesToSettle) {
-  if (options.size.x > 0) window_.resizeFramebuffer(options.size + uvec2(uint32_t(panelWidth()), 0));
-  state_.settings = options.settings;
   state_.arePanelsShown = preferences.arePanelsShown;
+  if (options.size.x > 0)
+    window_.resizeFramebuffer(options.size + uvec2(state_.arePanelsShown ? uint32_t(panelWidth()) : 0, 0));
+  state_.settings = options.settings;
+  for (const std::string& view : options.shown) showView(viewNamed(view), state_);
   state_.areTimesShown = preferences.areTimesShown;
   state_.device = graphics_->device().info().name;
 }
@@ -58,7 +62,7 @@ float Viewer::panelWidth() const {
 
 void Viewer::keepPreferences() const {
   ViewerPreferences preferences;
-  if (options_.frames > 0) return;
+  if (endsByItself(options_)) return;
   // A size that was asked for once is not how the user likes windows.
   preferences.windowSize =
       options_.size.x > 0 ? loadPreferences(preferencesFile()).windowSize : window_.size();
@@ -134,7 +138,7 @@ void Viewer::adopt(std::unique_ptr<Prepared> prepared) {
 }
 
 double Viewer::waitSeconds() const {
-  if (options_.frames > 0 || framesToGo_ > 0 || state_.isPlaying) return 0;
+  if (endsByItself(options_) || framesToGo_ > 0 || state_.isPlaying) return 0;
   const bool isBusy = preparation_ || referenceWorker_.isRunning() || !tasks_.empty() || shaders_.valid();
   return isBusy ? kBusyWait : kIdleWait;
 }
@@ -278,6 +282,7 @@ void Viewer::showFrame() {
   chooseShownImage();
   updateLines();
   graphics_->show(framebuffer);
+  if (drawn_.stage != 0) ++shownFrames_;
   if (!isNew) return;
   addToVideo();
   const double milliseconds = millisecondsSince(start);
@@ -327,6 +332,23 @@ void Viewer::writeStatsOfFrames() const {
   writeFileAtomically(options_.stats, statsJson(stats));
 }
 
+// Throws InputError where something that was asked for is not there to be shown.
+void Viewer::writeShown() {
+  if (options_.picture.empty()) return;
+  for (const std::string& name : options_.shown) {
+    const NamedView& view = viewNamed(name);
+    if (view.overlay ? lines_.empty() : !outputOf(state_, view.pass, view.output))
+      throw InputError("--show " + name + ": there is nothing of this kind with " +
+                       state_.settings.technique.technique + " here");
+  }
+  writePng(options_.picture, graphics_->screenPicture());
+}
+
+bool Viewer::isDone() const {
+  const bool isSettled = options_.picture.empty() || shownFrames_ > kFramesToSettle;
+  return endsByItself(options_) && frameMilliseconds_.size() >= options_.frames && isSettled;
+}
+
 bool Viewer::step() {
   throwIfInterrupted();
   framesToGo_ = std::max(framesToGo_ - 1, 0);
@@ -347,13 +369,14 @@ bool Viewer::step() {
   } catch (const std::bad_alloc&) {
     recover("There was not enough memory for this; try fewer vertices, directions or texels", false);
   }
-  if (options_.frames > 0 && !graphics_->stage && !preparation_) throw InputError(state_.message.text);
-  return options_.frames == 0 || frameMilliseconds_.size() < options_.frames;
+  if (endsByItself(options_) && !graphics_->stage && !preparation_) throw InputError(state_.message.text);
+  return !isDone();
 }
 
 void Viewer::run() {
   if (!options_.scene.empty()) openNow(options_.scene);
   while (step()) continue;
+  writeShown();
   keepPreferences();
   writeStatsOfFrames();
 }

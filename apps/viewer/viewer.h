@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/shared_language.h"
 #include "render/settings.h"
@@ -17,8 +18,19 @@ struct ViewerOptions {
   std::string device;  // as gpu::DeviceOptions::device
   uint32_t frames =
       0;  // draw this many frames, compute each completely, and end; 0: until the window is closed
+  std::vector<std::string> shown;  // in place of the picture, or over it: of viewNames()
+  // Write what the window shows to this PNG, without panels, and end; empty: do not.
+  std::filesystem::path picture;
   std::filesystem::path stats;  // where to write the figures of those frames; empty: nowhere
 };
+
+// Whether it ends without a user, who then has no preferences either.
+inline bool endsByItself(const ViewerOptions& options) {
+  return options.frames > 0 || !options.picture.empty();
+}
+
+// What may be shown in place of the picture, or over it.
+std::vector<std::string> viewNames();
 
 // Runs until the window is closed. Throws InputError where there is no display, or where this program was
 // built without the viewer's libraries.

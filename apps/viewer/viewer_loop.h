@@ -50,7 +50,7 @@ class Viewer {
   void setTime(double seconds);
   void dropStone();  // into the water under the pointer
   // viewer_views.cpp
-  void show(const char* pass, const char* output);
+  void show(const std::string& view);  // of viewNames(), or the picture again where it is shown
   // viewer_shaders.cpp
   void reloadShaders();
 
@@ -77,6 +77,7 @@ class Viewer {
   void recover(const std::string& why, bool isLost);
   std::string rescued() const;
   void writeStatsOfFrames() const;
+  bool isDone() const;  // what a run without a user is for
   // viewer_keys.cpp
   void press(const KeyPress& key);
   // viewer_files.cpp
@@ -91,10 +92,13 @@ class Viewer {
   std::filesystem::path fileToSave() const;
   SavedScene sceneToSave() const;
   Scene sceneAsLoaded() const;
+  void writeShown();
   // viewer_views.cpp
   void refineReference();
+  void showOutput();
   void chooseShownImage();
   void updateLines();
+  void addMeshLines();
   void drawLines(vec2 corner, vec2 size) const;
   void drawHandles(vec2 corner, vec2 size) const;
   // viewer_time.cpp
@@ -159,6 +163,7 @@ class Viewer {
   Clock::time_point lastFrame_ = Clock::now();
   Clock::time_point lastChange_ = Clock::now();
   std::vector<double> frameMilliseconds_;
+  int shownFrames_ = 0;  // of a scene
 };
 
 }  // namespace nephroid

@@ -56,6 +56,8 @@ struct ViewerState {
   std::vector<PassOutput> outputs;
   std::array<bool, kOverlays> overlays{};
   BeamCounts beamCounts;
+  Legend meshLegend;    // of the mesh of rays; without entries where that is not shown
+  Legend outputLegend;  // of the output that is shown
   bool isReferenceHeld = false;
   std::shared_ptr<const ReferenceView> reference;  // the newest reference of what is shown
 

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "geometry/bounds.h"
+#include "shown_views.h"
 #include "techniques/registry.h"
+#include "viewer/mesh_lines.h"
 #include "viewer_loop.h"
 
 namespace nephroid {
@@ -13,6 +15,8 @@ namespace {
 
 constexpr double kSecondsAtRest = 0.25;  // before the reference begins anew from where the camera is
 constexpr std::size_t kMostLines = 700;
+constexpr std::size_t kMostMeshBeams = 30'000, kMostMeshWays = 150;
+constexpr float kDimmed = 0.5f;  // the picture behind the mesh of rays
 
 ImU32 colorOf(vec3 color, float alpha) {
   return ImGui::ColorConvertFloat4ToU32({color.x, color.y, color.z, alpha});
@@ -35,16 +39,14 @@ std::optional<PictureLine> inPicture(const View& view, vec2 size, const SceneLin
 
 }  // namespace
 
-void Viewer::show(const char* pass, const char* output) {
-  const auto isIt = [&](const PassOutput& other) {
-    return other.pass == pass && (*output == 0 || other.name == output);
-  };
-  const auto found = std::ranges::find_if(state_.outputs, isIt);
+void Viewer::show(const std::string& view) {
+  const NamedView& wanted = viewNamed(view);
   const bool isShown =
-      state_.shown == Shown::output && state_.shownPass == pass && state_.shownOutput == output;
-  state_.shown = isShown || found == state_.outputs.end() ? Shown::picture : Shown::output;
-  state_.shownPass = pass;
-  state_.shownOutput = output;
+      state_.shown == Shown::output && state_.shownPass == wanted.pass && state_.shownOutput == wanted.output;
+  if (isShown || !outputOf(state_, wanted.pass, wanted.output))
+    state_.shown = Shown::picture;
+  else
+    showView(wanted, state_);
 }
 
 bool Viewer::seeTheSame(Drawn a, const Drawn& b) {
@@ -80,6 +82,19 @@ void Viewer::refineReference() {
   if (newest && !newest->failure.empty()) tell(state_, newest->failure, true);
 }
 
+void Viewer::showOutput() {
+  const PassOutput* found = outputOf(state_, state_.shownPass, state_.shownOutput);
+  if (!found) {
+    state_.shown = Shown::picture;
+    return;
+  }
+  Stage& stage = *graphics_->stage;
+  PassOutput output = *found;
+  state_.outputLegend = {};
+  if (output.make) output.image = output.make(stage.renderer().seenPoints(), state_.outputLegend);
+  picture_.image = &graphics_->outputView().show(output, stage.size());
+}
+
 void Viewer::chooseShownImage() {
   if (!graphics_->stage) return;
   picture_ = {&graphics_->stage->renderer().images().picture, false};
@@ -92,27 +107,34 @@ void Viewer::chooseShownImage() {
     isErrorUploaded_ = isError;
     picture_.image = &graphics_->uploaded();
   } else if (state_.shown == Shown::output && !state_.isReferenceHeld) {
-    const auto found = std::ranges::find_if(state_.outputs, [&](const PassOutput& output) {
-      return output.pass == state_.shownPass &&
-             (state_.shownOutput.empty() || output.name == state_.shownOutput);
-    });
-    if (found == state_.outputs.end())
-      state_.shown = Shown::picture;
-    else
-      picture_.image = &graphics_->outputView().show(*found, graphics_->stage->size());
+    showOutput();
   }
+}
+
+// Where there is a mesh of rays.
+void Viewer::addMeshLines() {
+  const Stage& stage = *graphics_->stage;
+  const RayMesh* mesh = stage.rayMesh();
+  if (!mesh || mesh->beams.empty()) return;
+  MeshLines some = meshLines(*mesh, kMostMeshBeams, kMostMeshWays);
+  removeHidden(stage.rayScene(), state_.scene.camera.position, some.sides);
+  for (const std::vector<SceneLine>* part : {&some.ways, &some.sides})
+    lines_.insert(lines_.end(), part->begin(), part->end());
+  state_.meshLegend = meshLegend(*mesh);
 }
 
 void Viewer::updateLines() {
   if (!graphics_->stage || std::ranges::count(state_.overlays, true) == 0) {
     lines_.clear();
     linesOf_.reset();
+    state_.meshLegend = {};
     return;
   }
   if (linesOf_ && linesOf_->first == drawn_ && linesOf_->second == state_.overlays) return;
   linesOf_ = {drawn_, state_.overlays};
   framesToGo_ = std::max(framesToGo_, 1);
   lines_.clear();
+  state_.meshLegend = {};
   Stage& stage = *graphics_->stage;
   const auto add = [&](const std::vector<SceneLine>& some) {
     lines_.insert(lines_.end(), some.begin(), some.end());
@@ -121,6 +143,7 @@ void Viewer::updateLines() {
   const Paths paths = settings.transport.paths;
   const bool beams = techniqueNamed(settings.technique).traits.usesBeams;
   if (state_.isOverlaid(Overlay::beams) && beams) add(beamLines(stage.transport(), paths, kMostLines));
+  if (state_.isOverlaid(Overlay::beams)) addMeshLines();
   if (state_.isOverlaid(Overlay::culled) && beams)
     add(culledLines(stage.transport(), paths, kMostLines, state_.beamCounts));
   const std::vector<Lattice> lattices = stage.lattices();
@@ -136,10 +159,13 @@ void Viewer::drawLines(vec2 corner, vec2 size) const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.PushClipRect({corner.x, corner.y}, {corner.x + size.x, corner.y + size.y});
   const View view = viewOf(state_.scene.camera, uvec2(size));
+  if (!state_.meshLegend.entries.empty())
+    list.AddRectFilled({corner.x, corner.y}, {corner.x + size.x, corner.y + size.y},
+                       colorOf(vec3(0), kDimmed));
   for (const SceneLine& line : lines_)
     if (const auto seen = inPicture(view, size, line)) {
       const vec2 from = corner + seen->from, to = corner + seen->to;
-      list.AddLine({from.x, from.y}, {to.x, to.y}, colorOf(line.color, 0.35f), 1);
+      list.AddLine({from.x, from.y}, {to.x, to.y}, colorOf(line.color, line.opacity), 1);
     }
   list.PopClipRect();
 }

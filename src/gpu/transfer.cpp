@@ -1,6 +1,7 @@
 #include "gpu/transfer.h"
 
 #include <algorithm>
+#include <array>
 
 namespace nephroid::gpu {
 
@@ -46,6 +47,15 @@ void downloadBytes(Device& device, const Image& from, uint32_t layer, std::span<
   const Buffer staging = createBuffer(device, from.name() + " readback", to.size(), MemoryKind::readback);
   device.submitAndWait([&](CommandList& commands) { commands.copy(from, layer, staging); });
   readStaging(staging, to);
+}
+
+ByteImage downloadPicture(Device& device, const Image& from) {
+  ByteImage picture{from.width(), from.height(), 3, {}};
+  const auto texels = download<std::array<uint8_t, 4>>(device, from);
+  picture.bytes.reserve(3 * texels.size());
+  for (const auto& texel : texels)
+    picture.bytes.insert(picture.bytes.end(), texel.begin(), texel.begin() + 3);
+  return picture;
 }
 
 }  // namespace nephroid::gpu

@@ -2,6 +2,7 @@
 // results.
 #pragma once
 
+#include "core/image.h"
 #include "gpu/command_list.h"
 
 namespace nephroid::gpu {
@@ -33,5 +34,8 @@ std::vector<T> download(Device& device, const Image& from, uint32_t layer = 0) {
   downloadBytes(device, from, layer, std::as_writable_bytes(std::span(texels)));
   return texels;
 }
+
+// An rgba8 image without its alpha.
+ByteImage downloadPicture(Device& device, const Image& from);
 
 }  // namespace nephroid::gpu

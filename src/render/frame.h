@@ -51,7 +51,9 @@ class Renderer {
   // The images of the last frame.
   const FrameImages& images() const { return images_; }
 
-  // Of the last frame: the outputs of the passes, and the slices for the view through casters.
+  // Of the last frame: the points that the camera sees, the outputs of the passes, and the slices for the
+  // view through casters.
+  ReceiverPoints seenPoints() const;
   std::vector<PassOutput> outputs() const;
   std::vector<Lattice> slices() const { return sight_.lattices(); }
 

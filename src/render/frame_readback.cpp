@@ -1,5 +1,4 @@
 // What a frame leaves behind, for files and for looking into its passes.
-#include <array>
 #include <glm/gtc/constants.hpp>
 #include <string_view>
 
@@ -20,12 +19,11 @@ void writeChannels(Image& layers, const std::string& prefix, std::string_view na
 }  // namespace
 
 ByteImage Renderer::picture() const {
-  const auto texels = gpu::download<std::array<uint8_t, 4>>(device_, images_.picture);
-  ByteImage picture{settings_.size.x, settings_.size.y, 3, {}};
-  picture.bytes.reserve(3 * texels.size());
-  for (const auto& texel : texels)
-    picture.bytes.insert(picture.bytes.end(), texel.begin(), texel.begin() + 3);
-  return picture;
+  return gpu::downloadPicture(device_, images_.picture);
+}
+
+ReceiverPoints Renderer::seenPoints() const {
+  return {&images_.seen[kSeen].position, &images_.seen[kSeen].normal};
 }
 
 std::vector<PassOutput> Renderer::outputs() const {

@@ -52,6 +52,12 @@ std::vector<PassOutput> CompositeTechnique::outputs() const {
   return ofAll(parts_, &Technique::outputs);
 }
 
+const RayMesh* CompositeTechnique::rayMesh() const {
+  for (const CompositePart& part : parts_)
+    if (const RayMesh* mesh = part.technique->rayMesh()) return mesh;
+  return nullptr;
+}
+
 bool CompositeTechnique::finish() {
   bool isDone = true;
   // The lists of a part that does not shade were not filled.

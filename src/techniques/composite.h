@@ -26,6 +26,7 @@ class CompositeTechnique final : public Technique {
   void record(gpu::CommandList& commands, GpuScene& gpuScene) override;
   std::vector<Lattice> lattices() const override;
   std::vector<PassOutput> outputs() const override;
+  const RayMesh* rayMesh() const override;  // that of the first part that has one
   bool finish() override;
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;

@@ -12,6 +12,8 @@
 
 namespace nephroid {
 
+struct RayMesh;
+
 // The points of receivers for which light is computed: a camera's pixels or a sensor's texels. Both images
 // have the same size.
 struct ReceiverPoints {
@@ -73,6 +75,8 @@ class Technique {
   // Of the last frame: the grids of the computation, and the outputs of the technique's passes.
   virtual std::vector<Lattice> lattices() const = 0;
   virtual std::vector<PassOutput> outputs() const = 0;
+  // The mesh of rays of the last frame; null where there is none.
+  virtual const RayMesh* rayMesh() const = 0;
 
   // To be called after the device has finished a frame. Returns false where a list was too short; it is
   // longer now, and each view has to be shaded again.
@@ -97,6 +101,7 @@ class TechniqueBase : public Technique {
   void record(gpu::CommandList& /*commands*/, GpuScene& /*gpuScene*/) override {}
   std::vector<Lattice> lattices() const override { return {}; }
   std::vector<PassOutput> outputs() const override { return {}; }
+  const RayMesh* rayMesh() const override { return nullptr; }
   bool finish() override { return true; }
   void scatter(gpu::CommandList& /*commands*/, const WaysOfSight& /*ways*/,
                const gpu::Image& /*luminance*/) override {}

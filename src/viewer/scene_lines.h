@@ -12,6 +12,7 @@ namespace nephroid {
 struct SceneLine {
   vec3 from{0}, to{0};  // m
   vec3 color{1};        // sRGB
+  float opacity = 0.35f;
 };
 
 // The numbers of rays at vertices: with light, and without it for each reason.

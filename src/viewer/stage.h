@@ -29,6 +29,7 @@ class Stage {
   const RayScene& rayScene() const { return prepared_->transport->rayScene(); }
   SceneTransport& transport() { return *prepared_->transport; }
   const Scene& scene() const { return prepared_->scene; }  // in the state in which it was prepared
+  const RayMesh* rayMesh() const { return technique_->rayMesh(); }
   // The grids of the last frame, of the technique and of the view through casters.
   std::vector<Lattice> lattices() const;
 

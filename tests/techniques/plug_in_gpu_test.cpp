@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "beams/ray_mesh/ray_mesh.h"
 #include "core/image_io.h"
 #include "geometry/shapes.h"
 #include "render/settings.h"
@@ -100,14 +101,16 @@ TEST_F(PlugInGpuTest, IsDrawnByTheProgramAndSaidByTheImage) {
 // Says what it is asked.
 class Asked final : public Technique {
  public:
-  Asked(std::vector<std::string>& calls, const TechniqueTraits& traits, bool isDone)
-      : calls_(calls), traits_(traits), isDone_(isDone) {}
+  Asked(std::vector<std::string>& calls, const TechniqueTraits& traits, bool isDone,
+        const RayMesh* mesh = nullptr)
+      : calls_(calls), traits_(traits), isDone_(isDone), mesh_(mesh) {}
   TechniqueTraits traits() const override { return traits_; }
   void reserve(uvec2 size) override { note("reserve " + std::to_string(size.x)); }
   void update(GpuScene&) override { note("update"); }
   void record(gpu::CommandList&, GpuScene&) override { note("record"); }
   std::vector<Lattice> lattices() const override { return std::vector<Lattice>(2); }
   std::vector<PassOutput> outputs() const override { return std::vector<PassOutput>(3); }
+  const RayMesh* rayMesh() const override { return mesh_; }
   bool finish() override {
     note("finish");
     return isDone_;
@@ -120,6 +123,7 @@ class Asked final : public Technique {
   std::vector<std::string>& calls_;
   TechniqueTraits traits_;
   bool isDone_;
+  const RayMesh* mesh_;
 };
 
 TEST_F(PlugInGpuTest, CompositesPassEverythingOn) {
@@ -127,7 +131,8 @@ TEST_F(PlugInGpuTest, CompositesPassEverythingOn) {
   std::vector<CompositePart> parts;
   parts.push_back(
       {std::make_unique<Asked>(calls, TechniqueTraits{.followsCamera = true, .coversSquares = true}, false)});
-  parts.push_back({std::make_unique<Asked>(calls, TechniqueTraits{.usesBeams = true}, true)});
+  const RayMesh mesh;
+  parts.push_back({std::make_unique<Asked>(calls, TechniqueTraits{.usesBeams = true}, true, &mesh)});
   CompositeTechnique both(std::move(parts));
   const Scene scene = floorAndLamp();
   GpuScene gpuScene(device(), scene);
@@ -146,6 +151,7 @@ TEST_F(PlugInGpuTest, CompositesPassEverythingOn) {
   EXPECT_EQ(calls, expected);
   EXPECT_EQ(both.lattices().size(), 4u);
   EXPECT_EQ(both.outputs().size(), 6u);
+  EXPECT_EQ(both.rayMesh(), &mesh);
   EXPECT_TRUE(both.traits().followsCamera);
   EXPECT_TRUE(both.traits().usesBeams);
   EXPECT_FALSE(both.traits().coversSquares);

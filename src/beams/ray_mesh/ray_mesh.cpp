@@ -363,6 +363,11 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) const {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
       mesh.beams[i] = beamOf(landed[wanted[i]], landings_[wanted[i]]);
   });
+  mesh.paths.clear();
+  for (const uint32_t i : wanted) {
+    const Sheet& sheet = landed[i];
+    mesh.paths.push_back({{sheet.node[0], sheet.node[1], sheet.node[2]}, sheet.cuts});
+  }
   std::vector<float> finest(sheets_.tree.nodes.size(), std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < wanted.size(); ++i)
     for (const uint32_t node : landed[wanted[i]].node)

@@ -44,6 +44,12 @@ struct LandedBeam {
   vec3 leastNormal{0}, mostNormal{0};  // of the receiver's side that is lit, at the corners, axis by axis
 };
 
+// Where a beam's light came along, for pictures of it.
+struct BeamPaths {
+  uint32_t node[3];  // where the paths of its corners land; of one path alone three times the same
+  uint8_t cuts = 0;
+};
+
 inline constexpr std::size_t kToldLevels = 24;
 
 struct RayMeshStats {
@@ -66,6 +72,7 @@ struct SheetMemory;
 struct RayMesh {
   std::vector<PathNode> nodes;
   std::vector<LandedBeam> beams;
+  std::vector<BeamPaths> paths;  // of the beams
   RayMeshStats stats;
   std::shared_ptr<SheetMemory> memory;  // to be used again
 };

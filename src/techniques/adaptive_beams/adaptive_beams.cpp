@@ -11,6 +11,7 @@
 #include "shaders/techniques/adaptive_beams/landed_light_frag.h"
 #include "shaders/techniques/whole_picture_vert.h"
 #include "techniques/adaptive_beams/landed_light.h"
+#include "techniques/adaptive_beams/level_picture.h"
 #include "techniques/adaptive_beams/sensor_light.h"
 #include "techniques/composite.h"
 #include "techniques/technique_info.h"
@@ -85,7 +86,8 @@ class AdaptiveBeams final : public TechniqueBase {
                                           shaders::techniques_adaptive_beams_landed_light_frag,
                                           {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}})),
         wordSampler_(gpu::createSampler(device_, {.filter = VK_FILTER_NEAREST})),
-        tileSampler_(gpu::createSampler(device_)) {}
+        tileSampler_(gpu::createSampler(device_)),
+        levels_(std::make_unique<LevelPicture>(device_)) {}
 
   void reserve(uvec2 size) override { pictureSize_ = size; }
   TechniqueTraits traits() const override { return kTraits; }
@@ -93,6 +95,8 @@ class AdaptiveBeams final : public TechniqueBase {
   void record(gpu::CommandList& commands, GpuScene&) override;
   void shade(gpu::CommandList& commands, const ReceiverPoints& points,
              const gpu::Image& causticsLux) override;
+  const RayMesh* rayMesh() const override { return &mesh_; }
+  std::vector<PassOutput> outputs() const override;
 
  private:
   void stage();
@@ -109,6 +113,7 @@ class AdaptiveBeams final : public TechniqueBase {
   uint32_t layers_ = 0;
   gpu::Buffer stagedCells_, stagedTiles_;
   gpu::Image cells_, tiles_;
+  std::unique_ptr<LevelPicture> levels_;
 };
 
 void AdaptiveBeams::update(GpuScene&) {
@@ -193,6 +198,14 @@ void AdaptiveBeams::shade(gpu::CommandList& commands, const ReceiverPoints& poin
                    {"cells", cells_, wordSampler_},
                    {"tiles", tiles_, tileSampler_}});
   });
+}
+
+std::vector<PassOutput> AdaptiveBeams::outputs() const {
+  PassOutput levels{"landed light", "levels"};
+  levels.make = [this](const ReceiverPoints& points, Legend& legend) {
+    return levels_->draw(light_, cells_, wordSampler_, points, legend);
+  };
+  return {levels};
 }
 
 constexpr SettingsOwner kOwners[] = {settingsOwner<Accuracy>("Accuracy", kAccuracySettings)};

@@ -6,6 +6,8 @@
 #include <span>
 
 #include "formats/scene_toml.h"
+#include "shown_views.h"
+#include "support/stats.h"
 
 namespace nephroid {
 namespace {
@@ -153,6 +155,42 @@ TEST_F(ViewSteps, WhatAHandDoesIsSeenInTheNextFrame) {
     } while (viewer().picture().bytes == before.bytes && frames < 10);
     EXPECT_EQ(frames, 1);
   }
+}
+
+uint64_t sumOf(const Legend& legend) {
+  uint64_t sum = 0;
+  for (const Legend::Entry& entry : legend.entries) sum += entry.count;
+  return sum;
+}
+
+// It has the beams of the frame that is seen, also while the light moves.
+TEST_F(ViewSteps, TheMeshOfRaysFollowsTheLight) {
+  ASSERT_TRUE(opens(written("ball.toml", kBallInView)));
+  EXPECT_TRUE(state().meshLegend.entries.empty());
+  hands().key(GLFW_KEY_1);
+  const uint64_t before = countIn(state().stats, "beams");
+  EXPECT_EQ(sumOf(state().meshLegend), before);
+  moveFirstLight(viewer());
+  EXPECT_NE(countIn(state().stats, "beams"), before);
+  EXPECT_EQ(sumOf(state().meshLegend), countIn(state().stats, "beams"));
+  hands().key(GLFW_KEY_1);
+  EXPECT_TRUE(state().meshLegend.entries.empty());
+}
+
+TEST_F(ViewSteps, LevelsOfLandedLightAreShownAndPutAway) {
+  ASSERT_TRUE(opens(written("ball.toml", kBallInView)));
+  hands().key(GLFW_KEY_C);
+  EXPECT_EQ(state().shown, Shown::output);
+  const uint64_t cells = sumOf(state().outputLegend);
+  EXPECT_GT(cells, 0u);
+  moveFirstLight(viewer());
+  EXPECT_NE(sumOf(state().outputLegend), cells);
+  hands().key(GLFW_KEY_C);
+  EXPECT_EQ(state().shown, Shown::picture);
+  state().settings.technique.technique = "light-volumes";
+  ASSERT_TRUE(stepUntil([&] { return !outputOf(state(), "landed light", "levels"); }));
+  hands().key(GLFW_KEY_C);
+  EXPECT_EQ(state().shown, Shown::picture);
 }
 
 }  // namespace

@@ -198,6 +198,27 @@ TEST_F(ViewWindow, IsTwiceAsLargeOnADenseScreen) {
   EXPECT_EQ(stats["counts"]["window_width"], size.x + 2 * uint32_t(kPanelWidth));
 }
 
+// As the window shows it, and without a user; the colors of levels are no grays.
+TEST_F(ViewWindow, WritesWhatItShows) {
+  const auto process = view({"--show", "levels,planes", "--picture", "levels.png"}, {320, 240});
+  EXPECT_EQ(process->wait(), 2);  // there are no planes
+  EXPECT_NE(readAll(folder_ / "log").find("--show planes: there is nothing"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "levels.png"));
+  for (const char* shown : {"levels", "beams"}) {
+    const std::string file = std::string(shown) + ".png";
+    const auto done = view({"--show", shown, "--picture", file}, {320, 240});
+    ASSERT_EQ(done->wait(), 0) << readAll(folder_ / "log");
+    const ByteImage picture = readPng(folder_ / file);
+    ASSERT_EQ(uvec2(picture.width, picture.height), uvec2(320, 240));
+    std::size_t colored = 0;
+    for (std::size_t i = 0; i < picture.bytes.size(); i += picture.components) {
+      const auto [least, most] = std::minmax({picture.bytes[i], picture.bytes[i + 1], picture.bytes[i + 2]});
+      if (most - least > 60) ++colored;
+    }
+    EXPECT_GT(colored, 320u * 240u / 20) << shown;
+  }
+}
+
 TEST(ViewCommand, SaysInOneLineThatThereIsNoDisplay) {
   const ProgramResult result = runProgram({"view", "scene.toml"}, "-u DISPLAY -u WAYLAND_DISPLAY");
   EXPECT_EQ(result.status, 2);
