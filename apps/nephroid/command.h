@@ -94,6 +94,6 @@ const std::string& commandLine();
 // command writes the same bytes.
 std::vector<ImageAttribute> imageAttributes(const PictureSettings& settings, const std::string& unit);
 
-void writeStats(const std::filesystem::path& file, const Stats& stats);
+void reportStats(const std::filesystem::path& file, const Stats& stats);
 
 }  // namespace nephroid

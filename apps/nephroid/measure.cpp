@@ -81,7 +81,7 @@ void measureReference(const MeasureOptions& options) {
   const StopRule stop = stopRule(options.reference, options.picture);
   refineToFile(counter, {options, options.reference, settings, stop, scene, "lux", sensor.name}, progress,
                stats);
-  writeStats(options.stats, stats);
+  reportStats(options.stats, stats);
 }
 
 void runMeasure(const MeasureOptions& options) {
@@ -130,7 +130,7 @@ void runMeasure(const MeasureOptions& options) {
   const SensorLayer direct = measureDirect(scene, rays, sensor, progress);
   writeExr(options.output, sensorImage(scene, sensor, direct, causticsLayer),
            imageAttributes(options.picture, "lux"));
-  writeStats(options.stats, stats);
+  reportStats(options.stats, stats);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 
 #include "command.h"
@@ -210,7 +211,8 @@ void checkOutput(const fs::path& file, const fs::path& scene, std::initializer_l
   checkWritable(file);
 }
 
-void writeStats(const fs::path& file, const Stats& stats) {
+void reportStats(const fs::path& file, const Stats& stats) {
+  if (!stats.shortfall.empty()) std::cerr << "nephroid: note: " << stats.shortfall << '\n';
   if (!file.empty()) writeFileAtomically(file, statsJson(stats));
 }
 

@@ -86,7 +86,7 @@ void renderReference(const RenderOptions& options, const std::vector<FrameJob>& 
     stats.prepareMilliseconds += preparing.milliseconds();
     refineToFile(image, {common, options.reference, settings, stop, scene, "nit", ""}, progress, stats);
   }
-  writeStats(options.stats, stats);
+  reportStats(options.stats, stats);
 }
 
 void runRender(const RenderOptions& options) {
@@ -109,7 +109,7 @@ void runRender(const RenderOptions& options) {
     std::move(part.begin(), part.end(), std::back_inserter(times));
   }
   addMedianFrame(std::move(times), stats);
-  writeStats(options.stats, stats);
+  reportStats(options.stats, stats);
 }
 
 void addFrames(CLI::App& command, RenderOptions& options) {

@@ -31,6 +31,7 @@ std::string statsJson(const Stats& stats) {
                          {"settings", settings},
                          {"error", orNull(stats.error)},
                          {"left_out", orNull(stats.leftOut)},
+                         {"shortfall", stats.shortfall},
                          {"prepare_ms", stats.prepareMilliseconds},
                          {"frame_ms", stats.frameMilliseconds},
                          {"passes", passes},

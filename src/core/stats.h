@@ -31,14 +31,15 @@ struct Stats {
   // Of a technique that works to an error that is asked for: what it claims to have reached, and the part of
   // the light that it left out.
   std::optional<double> error, leftOut;
+  std::string shortfall;  // a sentence where the error that was asked for is not reached; otherwise empty
 };
 
 // Sets a count and replaces the old one of that name.
 void setCount(Stats& stats, const std::string& name, uint64_t count);
 
 // {"schema": "nephroid stats 2", "device", "technique", "source", "settings": {...}, "error", "left_out",
-// "prepare_ms", "frame_ms", "passes": [{"name", "ms"}], "counts": {...}, "memory_bytes"}; error and left_out
-// are null where the technique knows none.
+// "shortfall", "prepare_ms", "frame_ms", "passes": [{"name", "ms"}], "counts": {...}, "memory_bytes"}; error
+// and left_out are null where the technique knows none.
 std::string statsJson(const Stats& stats);
 
 // The middle value, or the mean of the middle two where there is an even number. 0 for an empty list.

@@ -262,6 +262,9 @@ void LightSheets::cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts) 
 std::size_t LightSheets::bytes() const {
   std::size_t sum = tree.nodes.capacity() * sizeof(PathNode) + firstOfCorner_.capacity() * sizeof(uint32_t);
   for (const EdgeTable& table : middles_) sum += table.bytes();
+  for (const std::vector<Sheet>* list :
+       {&memory_.sheets, &memory_.next, &memory_.mixed, &memory_.landed, &memory_.worst})
+    sum += list->capacity() * sizeof(Sheet);
   return sum;
 }
 

@@ -91,9 +91,10 @@ class Refinement {
   float pathRadius(const Sheet& sheet, const Landing& landing) const;
   bool cutWorst(std::vector<Sheet>& landed, double squares, Progress& progress);
   bool isFull(const std::vector<Sheet>& landed) {
-    bool& isBounded = sheets_.stats.isBounded;
-    isBounded = isBounded || landed.size() >= settings_.mostBeams || sheets_.bytes() > settings_.mostBytes;
-    return isBounded;
+    RayMeshBound& bound = sheets_.stats.bound;
+    if (landed.size() >= settings_.mostBeams) bound = RayMeshBound::beams;
+    if (sheets_.bytes() > settings_.mostBytes) bound = RayMeshBound::bytes;
+    return bound != RayMeshBound::none;
   }
 
   LightSheets& sheets_;
@@ -260,7 +261,7 @@ bool Refinement::cutWorst(std::vector<Sheet>& landed, double squares, Progress& 
   for (int bucket = 0; bucket < last; ++bucket) {
     if (countInBucket[bucket] > room && bucket > 0) {
       last = bucket;
-      sheets_.stats.isBounded = true;
+      sheets_.stats.bound = RayMeshBound::beams;
     }
     room -= std::min(room, countInBucket[bucket]);
   }
@@ -394,6 +395,7 @@ void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSetting
   memory.sheets.clear();
   sheets.addFirstSheets(memory.sheets);
   sheets.follow(memory.sheets, landed, progress);
+  if (sheets.bytes() > settings.mostBytes) throw TooManyPaths(sheets.bytes());
   Refinement refinement(sheets, settings, memory);
   refinement.run(landed, progress);
   sheets.conform(landed);

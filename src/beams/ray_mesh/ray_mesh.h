@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "beams/ray_mesh/path_tree.h"
+#include "core/error.h"
 #include "core/progress.h"
 #include "scene/scene.h"
 
@@ -52,6 +53,9 @@ struct BeamPaths {
 
 inline constexpr std::size_t kToldLevels = 24;
 
+// What kept the error that was asked for from being reached.
+enum class RayMeshBound : uint8_t { none, beams, bytes };
+
 struct RayMeshStats {
   uint64_t rays = 0;
   uint64_t shadowRays = 0;
@@ -62,7 +66,7 @@ struct RayMeshStats {
   double lostFlux = 0;       // of triangles whose paths end nowhere
   uint64_t singlePaths = 0;  // beams that are one path
   double error = 0;          // that was reached
-  bool isBounded = false;    // a bound on beams or bytes was met first
+  RayMeshBound bound = RayMeshBound::none;
   std::array<uint64_t, kToldLevels> beamsByLevel{};
   std::array<uint64_t, kToldLevels> beamsByBranch{};  // by the boundaries that they crossed
 };
@@ -77,8 +81,15 @@ struct RayMesh {
   std::shared_ptr<SheetMemory> memory;  // to be used again
 };
 
+// The paths of the casters' own triangles already take more than settings.mostBytes.
+struct TooManyPaths : RuntimeFailure {
+  explicit TooManyPaths(uint64_t bytesOfAll)
+      : RuntimeFailure("the paths of light take too much memory"), bytes(bytesOfAll) {}
+  uint64_t bytes;
+};
+
 // Makes `mesh` anew; what it held before is gone, and its memory is used again. The same bytes for any number
-// of threads. Throws Interrupted after Ctrl-C.
+// of threads. Throws TooManyPaths, and Interrupted after Ctrl-C.
 void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSettings& settings,
                   Progress& progress, RayMesh& mesh);
 

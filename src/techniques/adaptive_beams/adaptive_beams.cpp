@@ -3,6 +3,8 @@
 
 #include <bit>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "core/accuracy.h"
 #include "geometry/bounds.h"
@@ -50,7 +52,26 @@ float smallestCaster(const Scene& scene) {
 
 constexpr TechniqueTraits kTraits{.followsCamera = true};
 
-void tell(const RayMesh& mesh, Paths paths, Stats& stats) {
+std::string inPercent(double part) {
+  std::ostringstream text;
+  text << std::setprecision(2) << 100 * part << " %";
+  return text.str();
+}
+
+// A sentence where a bound kept the error from being reached.
+std::string shortfallOf(const RayMesh& mesh, const Accuracy& accuracy, bool isPicture) {
+  const RayMeshStats& told = mesh.stats;
+  if (told.bound == RayMeshBound::none || told.error <= double(accuracy.error)) return {};
+  const std::string cause =
+      told.bound == RayMeshBound::bytes
+          ? "--memory " + std::to_string(accuracy.memory) + " leaves no room for more paths"
+          : "no more than " + std::to_string(mesh.beams.size()) + " beams are made" +
+                (isPicture ? " (for a larger picture or a smaller --error, more)" : "");
+  return "the light of caustics may be off by up to " + inPercent(told.error) + " of its mean, not " +
+         inPercent(double(accuracy.error)) + ": " + cause;
+}
+
+void tell(const RayMesh& mesh, Paths paths, const Accuracy& accuracy, bool isPicture, Stats& stats) {
   const RayMeshStats& told = mesh.stats;
   setCount(stats, "rays", told.rays);
   setCount(stats, "shadow_rays", told.shadowRays);
@@ -63,7 +84,8 @@ void tell(const RayMesh& mesh, Paths paths, Stats& stats) {
   levelsTold("beams_past_boundaries_", told.beamsByBranch);
   setCount(stats, "single_paths", told.singlePaths);
   setCount(stats, "ray_mesh_bytes", told.bytes);
-  setCount(stats, "bound_met", told.isBounded);
+  setCount(stats, "bound_met", told.bound != RayMeshBound::none);
+  stats.shortfall = shortfallOf(mesh, accuracy, isPicture);
   stats.error = told.error;
   // Without reflection, what is totally reflected is lost by definition.
   const double out = told.droppedFlux + (paths == Paths::all ? told.lostFlux : 0);
@@ -71,8 +93,22 @@ void tell(const RayMesh& mesh, Paths paths, Stats& stats) {
 }
 
 // Paths and light share what the user lets them have.
+constexpr uint64_t kPartOfPaths = 2;
 uint64_t bytesForPaths(const Accuracy& accuracy) {
-  return (uint64_t{accuracy.memory} << 20) / 2;
+  return (uint64_t{accuracy.memory} << 20) / kPartOfPaths;
+}
+
+// Calls trace(). Throws RuntimeFailure, with the memory that would do, where even the fewest paths do not
+// fit.
+template <class Trace>
+void traceWithin(const Accuracy& accuracy, const Trace& trace) {
+  try {
+    trace();
+  } catch (const TooManyPaths& failure) {
+    const uint64_t needed = (kPartOfPaths * failure.bytes >> 20) + 1;
+    throw RuntimeFailure("the fewest paths of light through the casters do not fit into --memory " +
+                         std::to_string(accuracy.memory) + ": they need " + std::to_string(needed));
+  }
 }
 
 class AdaptiveBeams final : public TechniqueBase {
@@ -133,10 +169,10 @@ void AdaptiveBeams::update(GpuScene&) {
   wanted.mostDetail = kMostDetail * smallest;
   wanted.detail = kLeastDetail * smallest;
   Progress progress;
-  traceRayMesh(scene, transport_.rayScene(), wanted, progress, mesh_);
+  traceWithin(accuracy, [&] { traceRayMesh(scene, transport_.rayScene(), wanted, progress, mesh_); });
   light_.build(mesh_);
   stage();
-  tell(mesh_, wanted.paths, stats_);
+  tell(mesh_, wanted.paths, accuracy, true, stats_);
   setCount(stats_, "light_cells", light_.cells.size());
   setCount(stats_, "landed_light_bytes", light_.bytes());
 }
@@ -234,9 +270,12 @@ std::vector<vec3> measure(const SensorRequest& request, Progress& progress, Stat
   const Accuracy& accuracy = accuracyOf(request.settings);
   const Paths paths = request.settings.transport.paths;
   RayMesh mesh;
-  std::vector<vec3> lux = lightOnSensor(request.scene, request.rays, request.sensor,
-                                        {accuracy.error, paths, bytesForPaths(accuracy)}, mesh, progress);
-  tell(mesh, paths, stats);
+  std::vector<vec3> lux;
+  traceWithin(accuracy, [&] {
+    lux = lightOnSensor(request.scene, request.rays, request.sensor,
+                        {accuracy.error, paths, bytesForPaths(accuracy)}, mesh, progress);
+  });
+  tell(mesh, paths, accuracy, false, stats);
   return lux;
 }
 
