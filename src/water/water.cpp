@@ -1,5 +1,7 @@
 #include "water/water.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "geometry/shape_grid.h"
@@ -30,12 +32,31 @@ struct OnGrid {
   }
 };
 
-void addWaves(const Water& water, double time, std::vector<ShapePoint>& points, std::vector<dvec2>& slopes) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    dvec3& position = points[i].position;
-    const WaterPoint wave = waterAt(water, {position.x, position.z}, time);
-    position.y += wave.height;
-    slopes[i] += wave.slope;
+WaterPoint pointOf(const Wave& wave, dvec2 xz, double time) {
+  const dvec2 direction = wave.direction;
+  const double k = kTurn / wave.wavelength;
+  const double argument = k * (glm::dot(direction, xz) - wave.speed * time) + wave.phase;
+  return {wave.amplitude * std::sin(argument), wave.amplitude * k * std::cos(argument) * direction};
+}
+
+// Straight lines between samples of a wave's slope are a twelfth of this too flat in the mean, and rise or
+// fall a twenty-fourth too little. Slopes that are greater by a sixteenth bring light near to where the wave
+// itself sends it.
+double squaredPhaseBetweenSamples(const Wave& wave, dvec2 spacing) {
+  const dvec2 phase = kTurn / wave.wavelength * dvec2(wave.direction) * spacing;
+  return glm::dot(phase, phase);
+}
+
+void addWaves(const Water& water, double time, dvec2 spacing, std::vector<ShapePoint>& points,
+              std::vector<dvec2>& slopes) {
+  for (const Wave& wave : water.waves) {
+    const double scale = 1 + std::min(squaredPhaseBetweenSamples(wave, spacing), 1.0) / 16;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      dvec3& position = points[i].position;
+      const WaterPoint point = pointOf(wave, {position.x, position.z}, time);
+      position.y += point.height;
+      slopes[i] += scale * point.slope;
+    }
   }
 }
 
@@ -71,7 +92,7 @@ std::vector<ShapePoint> surfacePoints(const Water& water, double time, WaveRun& 
     for (uint32_t x = 0; x <= cells.x; ++x)
       points.push_back({{between(-half.x, half.x, x, cells.x), 0, between(-half.y, half.y, z, cells.y)}, {}});
   std::vector<dvec2> slopes(points.size(), dvec2(0)), offsets;
-  addWaves(water, time, points, slopes);
+  addWaves(water, time, spacing, points, slopes);
   if (water.simulation) addSimulation(run.heightsAt(water, time), water, spacing, points, slopes);
   if (water.ocean) {
     OceanSurface sea = oceanSurface(water, time);
@@ -90,11 +111,9 @@ std::vector<ShapePoint> surfacePoints(const Water& water, double time, WaveRun& 
 WaterPoint waterAt(const Water& water, glm::dvec2 xz, double time) {
   WaterPoint point{0, glm::dvec2(0)};
   for (const Wave& wave : water.waves) {
-    const glm::dvec2 direction = wave.direction;
-    const double k = kTurn / wave.wavelength;
-    const double argument = k * (glm::dot(direction, xz) - wave.speed * time) + wave.phase;
-    point.height += wave.amplitude * std::sin(argument);
-    point.slope += wave.amplitude * k * std::cos(argument) * direction;
+    const WaterPoint one = pointOf(wave, xz, time);
+    point.height += one.height;
+    point.slope += one.slope;
   }
   return point;
 }

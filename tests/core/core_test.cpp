@@ -147,7 +147,8 @@ TEST(Stats, AreTheDocumentedFields) {
                     {{"beams", 7}},
                     1024,
                     0.02,
-                    {}};
+                    {},
+                    "few beams"};
   const auto json = nlohmann::json::parse(statsJson(stats));
   EXPECT_EQ(json["prepare_ms"], 12.5);
   EXPECT_EQ(json["frame_ms"], 3);
@@ -159,7 +160,8 @@ TEST(Stats, AreTheDocumentedFields) {
   EXPECT_EQ(json["schema"], "nephroid stats 2");
   EXPECT_EQ(json["error"], 0.02);
   EXPECT_TRUE(json["left_out"].is_null());
-  EXPECT_EQ(json.size(), 12u);
+  EXPECT_EQ(json["shortfall"], "few beams");
+  EXPECT_EQ(json.size(), 13u);
 }
 
 TEST(Stats, MedianIsTheMiddle) {
