@@ -2,15 +2,14 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <bit>
-#include <cmath>
 
 #include "core/accuracy.h"
-#include "geometry/bounds.h"
 #include "gpu/command_list.h"
 #include "scene/volume.h"
 #include "shaders/techniques/adaptive_beams/landed_light_frag.h"
 #include "shaders/techniques/whole_picture_vert.h"
 #include "techniques/adaptive_beams/landed_light.h"
+#include "techniques/adaptive_beams/picture_mesh.h"
 #include "techniques/adaptive_beams/sensor_light.h"
 #include "techniques/composite.h"
 #include "techniques/technique_info.h"
@@ -21,27 +20,14 @@ extern const TechniqueInfo kLightVolumes;
 
 namespace {
 
-constexpr uint64_t kMostBeams = 150'000;                    // of a picture that is to be moved by hand
 constexpr uint32_t kLayerSide = kTilesInRow * kTileStride;  // texels
 constexpr std::size_t kTexelBytes = 4 * sizeof(uint16_t);
 constexpr std::size_t kLayerBytes = std::size_t(kLayerSide) * kLayerSide * kTexelBytes;
-// Of the smallest caster, what a receiver's point shows at most, however far the eye is.
-constexpr float kMostDetail = 1.0f / 100;
-constexpr float kLeastDetail = 1.0f / 20000;
 
 // Of a number that is not negative and no larger than a half float can be.
 uint16_t halfOf(float value) {
   constexpr float kExponents = 0x1p-112f;  // between the two
   return uint16_t((std::bit_cast<uint32_t>(value * kExponents) + 0x1000u) >> 13);
-}
-
-float smallestCaster(const Scene& scene) {
-  float least = std::numeric_limits<float>::infinity();
-  for (const Object& object : scene.objects) {
-    if (!scene.isCaster(object)) continue;
-    least = std::min(least, object.placement.scale * boundingBox(scene.meshOf(object)).diagonal());
-  }
-  return least;
 }
 
 constexpr TechniqueTraits kTraits{.followsCamera = true};
@@ -64,11 +50,6 @@ void tell(const RayMesh& mesh, Paths paths, Stats& stats) {
   // Without reflection, what is totally reflected is lost by definition.
   const double out = told.droppedFlux + (paths == Paths::all ? told.lostFlux : 0);
   stats.leftOut = told.incidentFlux > 0 ? out / told.incidentFlux : 0;
-}
-
-// Paths and light share what the user lets them have.
-uint64_t bytesForPaths(const Accuracy& accuracy) {
-  return (uint64_t{accuracy.memory} << 20) / 2;
 }
 
 class AdaptiveBeams final : public TechniqueBase {
@@ -110,18 +91,7 @@ class AdaptiveBeams final : public TechniqueBase {
 
 void AdaptiveBeams::update(GpuScene&) {
   const Scene& scene = transport_.scene();
-  RayMeshSettings wanted;
-  const Accuracy& accuracy = accuracyOf(settings_);
-  wanted.error = accuracy.error;
-  wanted.mostBytes = bytesForPaths(accuracy);
-  wanted.paths = settings_.transport.paths;
-  wanted.mostBeams = kMostBeams;
-  wanted.eye = scene.camera.position;
-  wanted.detailPerMeter =
-      2 * std::tan(0.5f * glm::radians(scene.camera.verticalFov)) / float(std::max(pictureSize_.y, 1u));
-  const float smallest = smallestCaster(scene);
-  wanted.mostDetail = kMostDetail * smallest;
-  wanted.detail = kLeastDetail * smallest;
+  const RayMeshSettings wanted = settingsOfPicture(scene, pictureSize_, settings_);
   Progress progress;
   traceRayMesh(scene, transport_.rayScene(), wanted, progress, mesh_);
   light_.build(mesh_);

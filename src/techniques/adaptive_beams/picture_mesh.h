@@ -1,0 +1,18 @@
+// What is asked of the mesh of rays for a picture.
+#pragma once
+
+#include "beams/ray_mesh/ray_mesh.h"
+#include "core/accuracy.h"
+#include "techniques/settings.h"
+
+namespace nephroid {
+
+// `size`: of the picture, in pixels.
+RayMeshSettings settingsOfPicture(const Scene& scene, uvec2 size, const TechniqueSettings& settings);
+
+// Paths and light share what the user lets them have.
+inline uint64_t bytesForPaths(const Accuracy& accuracy) {
+  return (uint64_t{accuracy.memory} << 20) / 2;
+}
+
+}  // namespace nephroid
