@@ -18,6 +18,9 @@ struct BenchDevice {
   std::string on;  // "on NAME", "without frame rates: WHY"
 };
 
+// A count that a technique told; kNoFigure where it told none of this name.
+double countOf(const Stats& stats, const std::string& name);
+
 // Draws frames of a scene with a technique, and times them.
 class FrameBench {
  public:
@@ -33,8 +36,15 @@ class FrameBench {
   double seconds(Counts counts, const std::function<Scene(int)>& sceneOfFrame);
   double seconds(Counts counts, const Scene& still);
 
-  // The median time of one pass in those frames; 0 where there was no such pass.
-  double passMilliseconds(const std::string& pass) const;
+  // One frame after the other, for several that take turns. `time` keeps the times, `warmUp` does not.
+  void warmUp(const Scene& scene) { renderer_.render(scene); }
+  void time(const Scene& scene);
+  double seconds() const { return median(seconds_); }
+
+  // The median time of these passes together in the timed frames; 0 where there was no such pass.
+  double passMilliseconds(const std::vector<std::string>& passes) const;
+  // That of the passes that make light, before receivers look it up. Techniques name them differently.
+  double lightMilliseconds() const;
 
   const Stats& stats() const { return stats_; }  // of the last frame
   Technique& technique() { return *technique_; }
@@ -45,7 +55,9 @@ class FrameBench {
   SceneTransport transport_;
   std::unique_ptr<Technique> technique_;
   Renderer renderer_;
-  std::vector<std::vector<PassTime>> passes_;  // of each timed frame
+  // Of each timed frame.
+  std::vector<double> seconds_;
+  std::vector<std::vector<PassTime>> passes_;
 };
 
 }  // namespace nephroid

@@ -72,7 +72,7 @@ void addRates(PaperTable& table, const VolumeRow& row, const std::filesystem::pa
     const std::string what = std::string(row.scene) + ", " + kept;
     table.figures.push_back({what, "frame rate", "1/s", paper, 1 / seconds, kFrameRatesAsked * paper});
     if (techniqueNamed(settings.technique).traits.drawsCaustics)
-      table.figures.push_back({what, "look-up", "ms", kNoFigure, frames.passMilliseconds("caustics")});
+      table.figures.push_back({what, "look-up", "ms", kNoFigure, frames.passMilliseconds({"caustics"})});
   };
   add("grid", volumeSettings(Representation::grid), row.grid);
   add("shells", volumeSettings(Representation::shells), row.shells);

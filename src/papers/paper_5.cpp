@@ -96,11 +96,6 @@ Timed timeFrames(gpu::Device& device, const Scene& scene, const TechniqueSetting
   return timeFrames(frames, scene, counts);
 }
 
-double countOf(const Stats& stats, const std::string& name) {
-  const auto found = std::ranges::find(stats.counts, name, &std::pair<std::string, uint64_t>::first);
-  return found == stats.counts.end() ? kNoFigure : double(found->second);
-}
-
 void addRow(PaperTable& table, const Pool& view, std::size_t grid, const Scene& start, gpu::Device& device,
             Progress& progress) {
   const Scene scene = withGrid(start, kGrids[grid]);

@@ -9,6 +9,8 @@
 
 #include "core/error.h"
 #include "geometry/shapes.h"
+#include "papers/adaptive_beams_speed.h"
+#include "papers/adaptive_beams_truth.h"
 #include "papers/paper_3.h"
 #include "papers/paper_4.h"
 #include "papers/paper_5.h"
@@ -48,15 +50,20 @@ PaperTable lightTransportTables(const PaperBench&, Progress& progress) {
 struct Entry {
   const char* name;
   PaperTable (*measure)(const PaperBench&, Progress&);
+  const char* group = nullptr;
 };
-constexpr std::array<Entry, 5> kTables{{{"light-transport-table", lightTransportTables},
+constexpr const char* kAdaptiveBeams = "adaptive-beams";
+constexpr std::array<Entry, 8> kTables{{{"light-transport-table", lightTransportTables},
                                         {"papers-1-2", measurePapers1And2},
                                         {"paper-3", measurePaper3},
                                         {"paper-4", measurePaper4},
-                                        {"paper-5", measurePaper5}}};
+                                        {"paper-5", measurePaper5},
+                                        {"adaptive-beams-truth", measureAdaptiveTruth, kAdaptiveBeams},
+                                        {"adaptive-beams-error", measureAdaptiveError, kAdaptiveBeams},
+                                        {"adaptive-beams-speed", measureAdaptiveSpeed, kAdaptiveBeams}}};
 
-// A line for each row, and beside it for each quantity what the paper has, what is asked for (where something
-// is), what is measured here and how many times as good as asked that is.
+// A line for each row, and beside it for each quantity what the paper has and what is asked for (where there
+// is something), what is measured here and how many times as good as asked that is.
 class Layout {
  public:
   explicit Layout(const std::vector<PaperFigure>& figures) {
@@ -64,18 +71,20 @@ class Layout {
       rowWidth_ = std::max(rowWidth_, figure.row.size());
       Column& column = columnOf(figure);
       column.isAsked = column.isAsked || !std::isnan(figure.asked);
+      column.isInPaper = column.isInPaper || !std::isnan(figure.paper);
     }
   }
 
   std::string head() const {
     std::string names = padded("", rowWidth_), parts = names;
     for (const Column& column : columns_) {
-      const std::size_t width = kNumberWidth * (column.isAsked ? 4 : 2);
-      names += "  " + padded(column.name, width);
-      parts += "  " + toTheRight("paper");
-      if (column.isAsked) parts += toTheRight("asked");
-      parts += toTheRight("here");
-      if (column.isAsked) parts += toTheRight("ratio");
+      std::string own;
+      if (column.isInPaper) own += toTheRight("paper");
+      if (column.isAsked) own += toTheRight("asked");
+      own += toTheRight("here");
+      if (column.isAsked) own += toTheRight("ratio");
+      names += "  " + padded(column.name, own.size());
+      parts += "  " + padded(own, column.name.size());
     }
     return names + "\n" + parts + "\n";
   }
@@ -86,10 +95,12 @@ class Layout {
       const auto found =
           std::ranges::find_if(row, [&](const PaperFigure& f) { return nameOf(f) == column.name; });
       const PaperFigure figure = found == row.end() ? PaperFigure{} : *found;
-      text += "  " + number(figure.paper);
-      if (column.isAsked) text += number(figure.asked);
-      text += number(figure.ours);
-      if (column.isAsked) text += number(figure.ratio());
+      std::string own;
+      if (column.isInPaper) own += number(figure.paper);
+      if (column.isAsked) own += number(figure.asked);
+      own += number(figure.ours);
+      if (column.isAsked) own += number(figure.ratio());
+      text += "  " + padded(own, column.name.size());
     }
     return text + "\n";
   }
@@ -99,6 +110,7 @@ class Layout {
   struct Column {
     std::string name;
     bool isAsked = false;
+    bool isInPaper = false;
   };
 
   static std::string nameOf(const PaperFigure& figure) {
@@ -122,7 +134,7 @@ class Layout {
     const std::string name = nameOf(figure);
     const auto known = std::ranges::find(columns_, name, &Column::name);
     if (known != columns_.end()) return *known;
-    return columns_.emplace_back(Column{name, false});
+    return columns_.emplace_back(Column{name});
   }
 
   std::size_t rowWidth_ = 0;
@@ -134,6 +146,17 @@ class Layout {
 std::vector<std::string> paperTableNames() {
   std::vector<std::string> names;
   for (const Entry& entry : kTables) names.emplace_back(entry.name);
+  return names;
+}
+
+std::vector<std::string> paperTableGroups() {
+  return {kAdaptiveBeams};
+}
+
+std::vector<std::string> paperTablesNamed(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Entry& entry : kTables)
+    if (name == entry.name || (entry.group && name == entry.group)) names.emplace_back(entry.name);
   return names;
 }
 

@@ -1,4 +1,4 @@
-// Measures the papers' tables again, and shows the paper's figures beside ours.
+// Measures the papers' tables again, and shows the paper's figures beside ours; and tables of our own.
 #pragma once
 
 #include <filesystem>
@@ -40,7 +40,12 @@ struct PaperBench {
   std::filesystem::path curves;  // where to write curves as SVG, for tables that have them; empty: nowhere
 };
 
+// In the order in which they are measured where none is named.
 std::vector<std::string> paperTableNames();
+// Names that stand for several tables.
+std::vector<std::string> paperTableGroups();
+// The tables that a name stands for: those of a group, or the one of this name.
+std::vector<std::string> paperTablesNamed(const std::string& name);
 
 // Measures one of paperTableNames() on this machine. Without a usable device, frame rates are left out, and
 // the title gives the reason. Throws InputError where a scene is missing.

@@ -45,9 +45,20 @@ TEST(PaperTables, SayWhatIsAskedAndHowFarItIsReached) {
   EXPECT_TRUE(json[0]["figures"][2]["ours"].is_null());
 }
 
+TEST(PaperTables, OfOurOwnHaveNoColumnForAPaper) {
+  const PaperTable table{"name", "title", {{"scene", "time", "ms", kNoFigure, 2.5}}};
+  const std::string text = describe(table);
+  EXPECT_EQ(text.find("paper"), std::string::npos) << text;
+  EXPECT_EQ(text.find('-'), std::string::npos) << text;
+  EXPECT_NE(text.find("2.5"), std::string::npos) << text;
+}
+
 TEST(PaperTables, AreKnownByName) {
   Progress progress;
   EXPECT_FALSE(paperTableNames().empty());
+  EXPECT_EQ(paperTablesNamed("paper-3"), std::vector<std::string>{"paper-3"});
+  for (const std::string& group : paperTableGroups()) EXPECT_GT(paperTablesNamed(group).size(), 1u) << group;
+  EXPECT_TRUE(paperTablesNamed("none").empty());
   EXPECT_THROW(measurePaperTable("none", {}, progress), InputError);
 }
 

@@ -1,13 +1,13 @@
-// Answers that other programs counted, in ../shared/truth.
+// Answers that other programs counted, in ../shared/truth and in scenes/truth.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 
 #include "core/image_io.h"
 #include "formats/load.h"
+#include "papers/counted_truth.h"
 #include "render/measure.h"
 #include "support/shared_data.h"
 
@@ -27,14 +27,18 @@ inline void expectCounted(const SensorLayer& layer, const std::filesystem::path&
   const Image answer = readPfm(answerFile);
   const std::vector<float>& truth = *answer.find("G");
   ASSERT_EQ(layer.size(), truth.size());
-  double sum = 0, truthSum = 0, squares = 0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    sum += double(layer[i].y);
-    truthSum += double(truth[i]);
-    squares += std::pow(double(layer[i].y) - double(truth[i]), 2);
-  }
-  EXPECT_NEAR(sum / truthSum, 1, fluxTolerance);
-  EXPECT_LT(std::sqrt(squares / double(truth.size())) / (truthSum / double(truth.size())), rmseTolerance);
+  const TruthErrors errors = errorsAgainst(truth, layer);
+  EXPECT_NEAR(errors.fluxRatio, 1, fluxTolerance);
+  EXPECT_LT(errors.relativeRmse, rmseTolerance);
+}
+
+// The answers that are part of the repository.
+inline std::vector<CountedTruth> shippedTruths() {
+  return countedTruths(std::filesystem::path(NEPHROID_SOURCE_DIR) / "scenes" / "truth");
+}
+
+inline void PrintTo(const CountedTruth& truth, std::ostream* out) {
+  *out << truth.name;
 }
 
 }  // namespace nephroid

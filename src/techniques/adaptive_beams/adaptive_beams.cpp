@@ -2,18 +2,17 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <bit>
-#include <cmath>
 #include <iomanip>
 #include <sstream>
 
 #include "core/accuracy.h"
-#include "geometry/bounds.h"
 #include "gpu/command_list.h"
 #include "scene/volume.h"
 #include "shaders/techniques/adaptive_beams/landed_light_frag.h"
 #include "shaders/techniques/whole_picture_vert.h"
 #include "techniques/adaptive_beams/landed_light.h"
 #include "techniques/adaptive_beams/level_picture.h"
+#include "techniques/adaptive_beams/picture_mesh.h"
 #include "techniques/adaptive_beams/sensor_light.h"
 #include "techniques/composite.h"
 #include "techniques/technique_info.h"
@@ -24,30 +23,14 @@ extern const TechniqueInfo kLightVolumes;
 
 namespace {
 
-// Beams for each pixel of a picture that is to be moved by hand, with an error of 1 %; more for a smaller
-// one.
-constexpr float kBeamsOfPixel = 1.0f / 8, kErrorOfMost = 0.01f;
-constexpr uint64_t kFewestBeams = 20'000, kMostBeams = 4'000'000;
 constexpr uint32_t kLayerSide = kTilesInRow * kTileStride;  // texels
 constexpr std::size_t kTexelBytes = 4 * sizeof(uint16_t);
 constexpr std::size_t kLayerBytes = std::size_t(kLayerSide) * kLayerSide * kTexelBytes;
-// Of the smallest caster, what a receiver's point shows at most, however far the eye is.
-constexpr float kMostDetail = 1.0f / 100;
-constexpr float kLeastDetail = 1.0f / 20000;
 
 // Of a number that is not negative and no larger than a half float can be.
 uint16_t halfOf(float value) {
   constexpr float kExponents = 0x1p-112f;  // between the two
   return uint16_t((std::bit_cast<uint32_t>(value * kExponents) + 0x1000u) >> 13);
-}
-
-float smallestCaster(const Scene& scene) {
-  float least = std::numeric_limits<float>::infinity();
-  for (const Object& object : scene.objects) {
-    if (!scene.isCaster(object)) continue;
-    least = std::min(least, object.placement.scale * boundingBox(scene.meshOf(object)).diagonal());
-  }
-  return least;
 }
 
 constexpr TechniqueTraits kTraits{.followsCamera = true};
@@ -92,12 +75,6 @@ void tell(const RayMesh& mesh, Paths paths, const Accuracy& accuracy, bool isPic
   stats.leftOut = told.incidentFlux > 0 ? out / told.incidentFlux : 0;
 }
 
-// Paths and light share what the user lets them have.
-constexpr uint64_t kPartOfPaths = 2;
-uint64_t bytesForPaths(const Accuracy& accuracy) {
-  return (uint64_t{accuracy.memory} << 20) / kPartOfPaths;
-}
-
 // Calls trace(). Throws RuntimeFailure, with the memory that would do, where even the fewest paths do not
 // fit.
 template <class Trace>
@@ -105,7 +82,7 @@ void traceWithin(const Accuracy& accuracy, const Trace& trace) {
   try {
     trace();
   } catch (const TooManyPaths& failure) {
-    const uint64_t needed = (kPartOfPaths * failure.bytes >> 20) + 1;
+    const uint64_t needed = (kPartsOfMemory * failure.bytes >> 20) + 1;
     throw RuntimeFailure("the fewest paths of light through the casters do not fit into --memory " +
                          std::to_string(accuracy.memory) + ": they need " + std::to_string(needed));
   }
@@ -154,20 +131,8 @@ class AdaptiveBeams final : public TechniqueBase {
 
 void AdaptiveBeams::update(GpuScene&) {
   const Scene& scene = transport_.scene();
-  RayMeshSettings wanted;
   const Accuracy& accuracy = accuracyOf(settings_);
-  wanted.error = accuracy.error;
-  wanted.mostBytes = bytesForPaths(accuracy);
-  wanted.paths = settings_.transport.paths;
-  const float asked = kBeamsOfPixel * float(pictureSize_.x) * float(pictureSize_.y) *
-                      std::max(kErrorOfMost / wanted.error, 1.0f);
-  wanted.mostBeams = std::clamp(uint64_t(asked), kFewestBeams, kMostBeams);
-  wanted.eye = scene.camera.position;
-  wanted.detailPerMeter =
-      2 * std::tan(0.5f * glm::radians(scene.camera.verticalFov)) / float(std::max(pictureSize_.y, 1u));
-  const float smallest = smallestCaster(scene);
-  wanted.mostDetail = kMostDetail * smallest;
-  wanted.detail = kLeastDetail * smallest;
+  const RayMeshSettings wanted = settingsOfPicture(scene, pictureSize_, settings_);
   Progress progress;
   traceWithin(accuracy, [&] { traceRayMesh(scene, transport_.rayScene(), wanted, progress, mesh_); });
   light_.build(mesh_);
