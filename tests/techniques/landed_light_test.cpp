@@ -19,7 +19,6 @@ LandedBeam evenBeam(vec2 a, vec2 b, vec2 c, float detail) {
   beam.flux = vec3(kLux * 0.5f * doubled);
   beam.width = doubled / std::max({length(ab), length(ac), length(c - b)});
   beam.texel = std::max(detail, beam.width / 2.5f);
-  beam.finestBeside = beam.texel / 8;
   beam.leastNormal = beam.mostNormal = kUp;
   return beam;
 }

@@ -19,6 +19,7 @@ constexpr float kWeakBranch = 0.02f;
 constexpr double kLeftOut = 0.07;  // of the error
 // Of the error: less than this is not followed sheet by sheet.
 constexpr float kLeastCarried = 2e-4f;
+constexpr float kBoundedCarried = 0.2f;  // of a beam, likewise
 // Beams that a sheet of a caster's own triangle becomes, about.
 constexpr float kBeamsOfFirst = 4;
 // By how much a single path stands for light of a wider beam at each boundary that it passes.
@@ -141,10 +142,10 @@ vec3 LightSheets::fluxOf(const Sheet& sheet) const {
 }
 
 // lm: the part of the incident flux that is `ofError` of the error. Of casters of so many triangles that the
-// bound on beams will be met, no less than what a beam then has in the mean.
-float LightSheets::leastFlux(float ofError) const {
+// bound on beams will be met, no less than `ofBeam` of what a beam then has in the mean.
+float LightSheets::leastFlux(float ofError, float ofBeam) const {
   const float most = float(settings_.mostBeams);
-  const float bounded = std::min(1.0f, kBeamsOfFirst * float(firstSheets_) / most) / most;
+  const float bounded = ofBeam * std::min(1.0f, kBeamsOfFirst * float(firstSheets_) / most) / most;
   return std::max(ofError * settings_.error, bounded) * float(stats.incidentFlux);
 }
 
@@ -375,7 +376,7 @@ void LightSheets::prune(std::vector<Sheet>& sheets) {
 // sheets that carry little some are taken out by lot, with their light given to the others: in the mean
 // nothing is missing, and long ways of trapped light cost little.
 void LightSheets::chooseAmongWeak(std::vector<Sheet>& children) {
-  const float least = leastFlux(kLeastCarried);
+  const float least = leastFlux(kLeastCarried, kBoundedCarried);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < children.size(); ++i) {
     Sheet child = children[i];

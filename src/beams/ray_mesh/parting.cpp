@@ -59,7 +59,7 @@ struct LightSheets::SideCut {
 // lm; more after many boundaries, past which light is spread out.
 float LightSheets::lightestParted(const Sheet& sheet) const {
   const int spread = std::clamp(int(sheet.generation) - 2, 0, 4);
-  return leastFlux(kLight) * float(1 << (2 * spread));
+  return leastFlux(kLight, 1) * float(1 << (2 * spread));
 }
 
 void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {

@@ -16,6 +16,8 @@ constexpr int kMostLevels = 16;
 constexpr float kSteep = 2.5f;
 // Of the detail that a receiver's point shows: light that is no more off is where it should be.
 constexpr float kUnseen = 0.3f, kUnseenInFold = 1;
+// Of what density that changes along a side would mean if it came of bending alone.
+constexpr float kUneven = 0.6f;
 // Light that is denser than this, times the mean of what is lit, is focused.
 constexpr double kFocus = 8;
 // Of the size of what is lit, the most that one path stands for.
@@ -24,6 +26,8 @@ constexpr float kWidestPath = 1.0f / 8;
 constexpr float kBrightestPath = 0.02f;
 // Texels that a beam has across and along, at most.
 constexpr float kTexelsAcross = 2.5f, kTexelsAlong = 12;
+// A sheet of so much gain is one that was chosen by lot.
+constexpr float kChosen = 2;
 // Area and side of a triangle whose corners are 1 off its middle.
 constexpr double kTangentArea = 1.299;
 constexpr float kSideOfTangent = 1.732f;
@@ -64,7 +68,7 @@ class Refinement {
       const double squares = judge(landed);
       if (allowed_ > 0)
         sheets_.stats.error =
-            std::sqrt((squares + singlePathSquares(landed)) / allowed_) * double(settings_.error);
+            std::sqrt((squares + chanceSquares(landed)) / allowed_) * double(settings_.error);
       if (squares <= allowed_ || level == kMostLevels || isFull(landed)) return;
       if (!cutWorst(landed, squares, progress)) return;
     }
@@ -87,7 +91,7 @@ class Refinement {
   double judge(const std::vector<Sheet>& landed);
   double errorSquares(const Sheet& sheet, const Landing& landing) const;
   float steepness(const Sheet& sheet, const Landing& landing) const;
-  double singlePathSquares(const std::vector<Sheet>& landed) const;
+  double chanceSquares(const std::vector<Sheet>& landed) const;
   float pathRadius(const Sheet& sheet, const Landing& landing) const;
   bool cutWorst(std::vector<Sheet>& landed, double squares, Progress& progress);
   bool isFull(const std::vector<Sheet>& landed) {
@@ -213,8 +217,10 @@ double Refinement::errorSquares(const Sheet& sheet, const Landing& landing) cons
   if (sheet.cuts == kWhole || !landing.isWanted) return 0;
   const float detail = landing.detail;
   const float steep = steepness(sheet, landing);
-  // m that a side's middle lands off the middle of its ends.
-  const float seen = std::min(sheet.bend, 0.125f * steep * landing.longest) -
+  // m that a side's middle lands off the middle of its ends, or would if what makes the density change were
+  // that: light that meets the caster unevenly is no straight line between corners either.
+  const float moved = 0.125f * steep * landing.longest;
+  const float seen = std::max(std::min(sheet.bend, moved), kUneven * moved) -
                      (steep < kSteep ? kUnseen : kUnseenInFold) * detail;
   const float bend = std::max(seen, 0.0f);
   const float width = landing.width + detail;
@@ -298,13 +304,19 @@ float Refinement::pathRadius(const Sheet& sheet, const Landing& landing) const {
   return std::clamp(std::max(sheet.bend, faint), landing.detail, std::max(widest, landing.detail));
 }
 
-// The variance of single paths, which stand for the light about them, in the unit of errorSquares.
-double Refinement::singlePathSquares(const std::vector<Sheet>& landed) const {
+// The variance of what was chosen by lot, in the unit of errorSquares: of single paths, which stand for the
+// light about them, and of sheets, which stand for those that were taken out.
+double Refinement::chanceSquares(const std::vector<Sheet>& landed) const {
   double sum = 0;
   for (std::size_t i = 0; i < landed.size(); ++i) {
-    if (landed[i].cuts != kWhole || !landings_[i].isWanted) continue;
-    const double radius = double(pathRadius(landed[i], landings_[i]));
-    sum += std::pow(double(landings_[i].luminance), 2) / (kTangentArea * radius * radius);
+    const Landing& landing = landings_[i];
+    const bool isPath = landed[i].cuts == kWhole;
+    if (!landing.isWanted || (!isPath && landed[i].gain < kChosen)) continue;
+    const double radius = isPath ? double(pathRadius(landed[i], landing)) : 0;
+    const double area = isPath ? kTangentArea * radius * radius : double(landing.area);
+    const double luminance = double(landing.luminance);
+    const double point = double(settings_.detailsOfPoint * landing.detail);
+    sum += luminance * luminance / std::max(area, point * point);
   }
   return sum;
 }
@@ -331,8 +343,7 @@ LandedBeam Refinement::beamOf(const Sheet& sheet, const Landing& landing) const 
     beam.width = 1.5f * radius;
     along = kSideOfTangent * radius;
   }
-  beam.texel = beam.finestBeside =
-      std::max({landing.detail, beam.width / kTexelsAcross, along / kTexelsAlong});
+  beam.texel = std::max({landing.detail, beam.width / kTexelsAcross, along / kTexelsAlong});
   const bool isSmooth = !beam.isPath && steepness(sheet, landing) < kSteep;
   vec3 density(1);
   beam.object = first.object;
@@ -369,14 +380,6 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) const {
     const Sheet& sheet = landed[i];
     mesh.paths.push_back({{sheet.node[0], sheet.node[1], sheet.node[2]}, sheet.cuts});
   }
-  std::vector<float> finest(sheets_.tree.nodes.size(), std::numeric_limits<float>::infinity());
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    for (const uint32_t node : landed[wanted[i]].node)
-      finest[node] = std::min(finest[node], mesh.beams[i].texel);
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    if (!mesh.beams[i].isPath)
-      for (const uint32_t node : landed[wanted[i]].node)
-        mesh.beams[i].finestBeside = std::min(mesh.beams[i].finestBeside, finest[node]);
 }
 
 }  // namespace

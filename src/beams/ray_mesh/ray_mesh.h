@@ -22,6 +22,7 @@ struct RayMeshSettings {
   // m: no receiver's point shows more; and m for each from an eye there, up to the most.
   float detail = 0.01f;
   float mostDetail = 1e30f;
+  float detailsOfPoint = 1;  // across a receiver's point, over which light chosen by lot is evened out
   float detailPerMeter = 0;
   vec3 eye{0};
   // m2 over which the mean of the light is taken; 0: where nine tenths of it land
@@ -39,7 +40,6 @@ struct LandedBeam {
   vec3 flux{0};                        // lm
   float width = 0;                     // m, across its longest side
   float texel = 0;                     // m, of the texels that its light is kept in
-  float finestBeside = 0;              // m, of those of the beams that share a corner with it
   bool isPath = false;                 // one path alone, for light about it
   uint32_t object = 0;                 // that they land on
   vec3 leastNormal{0}, mostNormal{0};  // of the receiver's side that is lit, at the corners, axis by axis

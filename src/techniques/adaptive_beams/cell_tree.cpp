@@ -8,8 +8,7 @@
 namespace nephroid {
 namespace {
 
-// A beam is added to cells as fine as those of the beams beside it, but at most so many levels finer than its
-// own, and carried from there.
+// A beam is added to cells that are so many levels finer than its own, and carried from there.
 constexpr uint32_t kLevelsBelow = 3;
 // What lies on several objects in one cell is parted by cells up to so many levels finer.
 constexpr uint32_t kLevelsToPart = 3;
@@ -208,8 +207,7 @@ void CellTree::placeIn(uint32_t cell, uint32_t index, const Bounds& bounds,
   const FacedBeam& faced = faced_[index];
   const LandedBeam& beam = mesh_.beams[faced.beam];
   const uint32_t toPart = beam.isPath ? kLevelsToPartPaths : kLevelsToPart;
-  const uint32_t below =
-      place.isShared ? toPart : std::min(uint32_t(faced.finest - faced.level), kLevelsBelow);
+  const uint32_t below = place.isShared ? toPart : (beam.isPath ? 0 : kLevelsBelow);
   const auto& children = light_.cells[cell].children;
   const bool isFinest = std::ranges::all_of(children, [](uint32_t child) { return child == 0; });
   if (isFinest || place.level >= faced.level + below) {

@@ -14,8 +14,7 @@ namespace nephroid {
 struct FacedBeam {
   uint32_t beam;
   uint8_t face;
-  uint8_t level;   // of cells whose texels are a part of its width
-  uint8_t finest;  // level of a beam beside it
+  uint8_t level;  // of cells whose texels are a part of its width
 };
 
 // Where a faced beam is added to a cell's tile.

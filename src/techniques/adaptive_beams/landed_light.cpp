@@ -39,14 +39,12 @@ std::vector<FacedBeam> facedBeams(const RayMesh& mesh, float coarsest) {
     const std::size_t end = std::min(mesh.beams.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
       const LandedBeam& beam = mesh.beams[i];
-      const auto levelOf = [&](float texel) {
-        return uint8_t(glm::clamp(std::round(std::log2(coarsest / texel)), 0.0f, float(kDeepestCell)));
-      };
-      const uint8_t level = levelOf(beam.texel), finest = std::max(levelOf(beam.finestBeside), level);
+      const float level = std::round(std::log2(coarsest / beam.texel));
+      const uint8_t depth = uint8_t(glm::clamp(level, 0.0f, float(kDeepestCell)));
       for (uint8_t face = 0; face < kFaces; ++face) {
         const int axis = face / 2;
         const float most = face & 1u ? -beam.leastNormal[axis] : beam.mostNormal[axis];
-        if (most > kLeastFacing) chunks[chunk].push_back({uint32_t(i), face, level, finest});
+        if (most > kLeastFacing) chunks[chunk].push_back({uint32_t(i), face, depth});
       }
     }
   });

@@ -71,7 +71,8 @@ std::vector<vec3> lightOnSensor(const Scene& scene, const RayScene& rays, const 
   settings.target = {true, gridOf(sensor)};
   settings.wantedHigh = vec2(sensor.resolution);
   settings.area = length(cross(sensor.u, sensor.v));
-  settings.detail = 0.25 * std::sqrt(settings.area / texels);
+  settings.detailsOfPoint = 4;
+  settings.detail = std::sqrt(settings.area / texels) / settings.detailsOfPoint;
   traceRayMesh(scene, rays, settings, progress, mesh);
   const std::size_t count = std::size_t(sensor.resolution.x) * sensor.resolution.y;
   std::vector<float> flux(3 * count, 0);
