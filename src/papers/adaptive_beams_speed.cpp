@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 
 #include "core/error.h"
@@ -121,11 +122,23 @@ void addContender(Contenders& all, const char* technique, const std::string& nam
   }
 }
 
+// Those that one frame shows to be far from the fastest are not timed further: some take seconds.
+void dropSlow(Contenders& older, const Scene& scene) {
+  constexpr double kFar = 2;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& contender : older) {
+    contender->frames.time(scene);
+    least = std::min(least, contender->litMilliseconds());
+  }
+  std::erase_if(older, [&](const auto& contender) { return contender->litMilliseconds() > kFar * least; });
+}
+
 void addScene(PaperTable& table, const std::string& name, const Scene& scene, const PaperBench& bench,
               std::string& left, Progress& progress) {
   Contenders own, older;
   addContender(own, "adaptive-beams", name, scene, bench, left, progress);
   for (const char* technique : kOlder) addContender(older, technique, name, scene, bench, left, progress);
+  dropSlow(older, scene);
   progress.begin("frames of " + name, kTimedFrames);
   for (int frame = 1; frame <= kTimedFrames; ++frame) {
     const Scene moved = withTurnedLights(scene, frame);
