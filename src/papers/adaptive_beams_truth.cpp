@@ -9,11 +9,12 @@
 #include "formats/load.h"
 #include "geometry/bounds.h"
 #include "papers/counted_truth.h"
-#include "papers/frame_bench.h"
 #include "papers/paper_scenes.h"
 #include "reference/sensor.h"
 #include "reference/settings.h"
-#include "render/technique_meter.h"
+#include "render/settings.h"
+#include "techniques/adaptive_beams/landed_light.h"
+#include "techniques/adaptive_beams/picture_mesh.h"
 #include "techniques/registry.h"
 
 namespace nephroid {
@@ -24,7 +25,6 @@ constexpr float kUsualError = 0.01f;
 constexpr const char* kSceneOfSensors = "ball-lamp";
 constexpr std::array<uint32_t, 3> kSensors{64, 256, 1024};  // texels along a side
 constexpr std::array<int, 3> kFloors{3, 20, 200};           // m
-constexpr FrameBench::Counts kFramesOfFloor{.warmUps = 1, .frames = 3};
 
 constexpr std::array<float, 4> kErrors{0.05f, 0.02f, 0.01f, 0.005f};  // asked for
 constexpr std::array<const char*, 6> kCountedScenes{"ball-lamp", "ball-sun-past", "prism-sun",
@@ -95,22 +95,46 @@ void addSensor(PaperTable& table, const std::string& row, const Scene& scene, co
   addWork(table, row, reading);
 }
 
-// As it is drawn: the sensor is looked up in the light that landed in the whole scene.
-void addFloor(PaperTable& table, const std::string& row, Scene scene, const CountedTruth& truth, float side,
-              gpu::Device& device, Progress& progress) {
+// As it is drawn: the sensor's texels are looked up, at points of each, in the light of the whole picture.
+SensorLayer lookedUp(const LandedLight& light, const Sensor& sensor) {
+  constexpr uint32_t kPointsAlong = 4;  // a texel's side
+  const uvec2 texels = sensor.resolution, points = texels * kPointsAlong;
+  const vec3 normal = normalize(cross(sensor.v, sensor.u));
+  SensorLayer lux(std::size_t(texels.x) * texels.y, vec3(0));
+  for (uint32_t y = 0; y < points.y; ++y)
+    for (uint32_t x = 0; x < points.x; ++x) {
+      const vec2 place = (vec2(x, y) + 0.5f) / vec2(points);
+      lux[std::size_t(y / kPointsAlong) * texels.x + x / kPointsAlong] +=
+          light.illuminanceAt(sensor.corner + place.x * sensor.u + place.y * sensor.v, normal) /
+          float(kPointsAlong * kPointsAlong);
+    }
+  return lux;
+}
+
+void addFloor(PaperTable& table, const std::string& row, Scene scene, const CountedTruth& truth, float side) {
   for (Object& object : scene.objects)
     if (!scene.isCaster(object)) {
       const Box box = boundingBox(scene.meshOf(object));
       object.placement.scale = side / (box.high.x - box.low.x);
     }
-  const TechniqueSettings settings = settingsWithin(kUsualError);
-  FrameBench frames(device, scene, settings, {}, progress);
-  frames.seconds(kFramesOfFloor, scene);
-  Stats stats;
-  const SensorLayer lux =
-      TechniqueMeter(device, scene, scene.sensors.at(0), settings, progress, stats).read();
-  addErrors(table, row, errorsAgainst(truth.lux, lux), truth.spread);
-  addWork(table, row, {{}, frames.stats(), frames.lightMilliseconds()});
+  const RayScene rays(scene);
+  const RayMeshSettings wanted = settingsOfPicture(scene, RenderSettings{}.size, settingsWithin(kUsualError));
+  RayMesh mesh;
+  LandedLight light;
+  std::vector<double> milliseconds;
+  for (int run = 0; run < kReadings; ++run) {
+    Progress silent;
+    const Stopwatch watch;
+    traceRayMesh(scene, rays, wanted, silent, mesh);
+    light.build(mesh);
+    milliseconds.push_back(watch.milliseconds());
+  }
+  Reading reading{lookedUp(light, scene.sensors.at(0)), {}, median(milliseconds)};
+  reading.stats.error = mesh.stats.error;
+  setCount(reading.stats, "rays", mesh.stats.rays);
+  setCount(reading.stats, "beams", mesh.beams.size());
+  addErrors(table, row, errorsAgainst(truth.lux, reading.lux), truth.spread);
+  addWork(table, row, reading);
 }
 
 // lux that another program counted, or that the reference counts now.
@@ -150,12 +174,10 @@ void addAsked(PaperTable& table, const Beside& beside, float error) {
 
 PaperTable measureAdaptiveTruth(const PaperBench& bench, Progress& progress) {
   const std::vector<CountedTruth> truths = countedTruths(paperScenes(bench) / "truth");
-  BenchDevice device(bench);
   PaperTable table{
       "adaptive-beams-truth",
       "adaptive-beams against scenes/truth, all paths, --error 1%: sensors by `nephroid measure`, "
-      "median of 3 runs; floors as drawn at 640 x 480, " +
-          (device.device ? device.on : "left out" + device.on.substr(device.on.find(':'))),
+      "floors by the light of a picture of 640 x 480; medians of 3 runs",
       {}};
   progress.begin("scenes with counted light", truths.size());
   for (const CountedTruth& truth : truths) {
@@ -173,9 +195,8 @@ PaperTable measureAdaptiveTruth(const PaperBench& bench, Progress& progress) {
     addSensor(table, std::string(kSceneOfSensors) + ", " + std::to_string(texels) + " squared", scene,
               *ofSensors, texels);
   for (const int side : kFloors)
-    if (device.device)
-      addFloor(table, std::string(kSceneOfSensors) + ", floor of " + std::to_string(side) + " m", scene,
-               *ofSensors, float(side), *device.device, progress);
+    addFloor(table, std::string(kSceneOfSensors) + ", floor of " + std::to_string(side) + " m", scene,
+             *ofSensors, float(side));
   return table;
 }
 

@@ -17,7 +17,7 @@ constexpr float kSteep = 2.5f;
 // Of the detail that a receiver's point shows: light that is no more off is where it should be.
 constexpr float kUnseen = 0.3f, kUnseenInFold = 1;
 // Of what density that changes along a side would mean if it came of bending alone.
-constexpr float kUneven = 0.6f;
+constexpr float kUneven = 0.8f;
 // Light that is denser than this, times the mean of what is lit, is focused.
 constexpr double kFocus = 8;
 // Of the size of what is lit, the most that one path stands for.
