@@ -74,7 +74,10 @@ void LightSheets::conform(std::vector<Sheet>& landed) const {
     for (std::size_t i = chunk * kChunk; i < end; ++i) addConforming(landed[i], chunks[chunk]);
   });
   landed.clear();
-  for (const std::vector<Sheet>& chunk : chunks) landed.insert(landed.end(), chunk.begin(), chunk.end());
+  for (std::vector<Sheet>& chunk : chunks) {
+    landed.insert(landed.end(), chunk.begin(), chunk.end());
+    chunk = {};
+  }
 }
 
 }  // namespace nephroid

@@ -20,6 +20,8 @@ constexpr double kLeftOut = 0.07;  // of the error
 // Of the error: less than this is not followed sheet by sheet.
 constexpr float kLeastCarried = 2e-4f;
 constexpr float kBoundedCarried = 0.2f;  // of a beam, likewise
+// Nodes that the path of a caster's own corner has, about.
+constexpr std::size_t kNodesOfCorner = 8;
 // Beams that a sheet of a caster's own triangle becomes, about.
 constexpr float kBeamsOfFirst = 4;
 // By how much a single path stands for light of a wider beam at each boundary that it passes.
@@ -41,6 +43,12 @@ bool isOneWay(const std::vector<PathNode>& nodes, const Sheet& sheet) {
 }
 
 }  // namespace
+
+void SheetMemory::giveBackLarge() {
+  constexpr std::size_t kLarge = (16 << 20) / sizeof(Sheet);
+  for (std::vector<Sheet>* list : {&sheets, &next, &mixed, &landed, &worst})
+    if (list->empty() && list->capacity() > kLarge) *list = {};
+}
 
 LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const RayMeshSettings& settingsOf,
                          SheetMemory& memoryOf)
@@ -149,31 +157,22 @@ float LightSheets::leastFlux(float ofError, float ofBeam) const {
   return std::max(ofError * settings_.error, bounded) * float(stats.incidentFlux);
 }
 
-// Those that get light, in the order of the triangles.
-std::vector<Sheet> LightSheets::sheetsOfTriangles(uint32_t lightIndex) const {
-  const CasterLight& light = lights_[lightIndex];
+// lm onto each of its caster's triangles.
+std::vector<vec3> LightSheets::fluxesOntoTriangles(const CasterLight& light) const {
   const Object& object = scene_.objects[light.object];
   const Mesh& mesh = scene_.meshOf(object);
-  std::vector<vec3> positions(mesh.positions.size());
+  std::vector<vec3> positions(mesh.positions.size()), fluxes(mesh.triangles.size());
   oneapi::tbb::parallel_for(IndexRange(0, positions.size(), 4096), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
       positions[i] = object.placement.point(mesh.positions[i]);
   });
-  std::vector<Sheet> sheets(mesh.triangles.size());
-  oneapi::tbb::parallel_for(IndexRange(0, sheets.size(), kGrain), [&](const IndexRange& range) {
+  oneapi::tbb::parallel_for(IndexRange(0, fluxes.size(), kGrain), [&](const IndexRange& range) {
     for (std::size_t t = range.begin(); t < range.end(); ++t) {
-      Sheet& sheet = sheets[t];
-      sheet.triangle = uint32_t(t);
-      sheet.light = lightIndex;
-      sheet.weights[0] = vec2(0);
-      sheet.weights[1] = vec2(1, 0);
-      sheet.weights[2] = vec2(0, 1);
-      const uvec3 corners = mesh.triangles[t];
-      sheet.flux = fluxOf(sheet, positions[corners.x], positions[corners.y], positions[corners.z]);
+      const uvec3 c = mesh.triangles[t];
+      fluxes[t] = fluxBetween(scene_, light, positions[c.x], positions[c.y], positions[c.z]);
     }
   });
-  std::erase_if(sheets, [](const Sheet& sheet) { return !(sheet.flux.x + sheet.flux.y + sheet.flux.z > 0); });
-  return sheets;
+  return fluxes;
 }
 
 void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
@@ -183,7 +182,16 @@ void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
     const Mesh& mesh = scene_.meshOf(scene_.objects[lights_[index].object]);
     const float extent = boundingBox(mesh).diagonal();
     cornerOf.assign(mesh.positions.size(), kNone);
-    for (Sheet& sheet : sheetsOfTriangles(index)) {
+    const std::vector<vec3> fluxes = fluxesOntoTriangles(lights_[index]);
+    for (uint32_t t = 0; t < fluxes.size(); ++t) {
+      if (!(fluxes[t].x + fluxes[t].y + fluxes[t].z > 0)) continue;
+      Sheet sheet;
+      sheet.triangle = t;
+      sheet.light = index;
+      sheet.flux = fluxes[t];
+      sheet.weights[0] = vec2(0);
+      sheet.weights[1] = vec2(1, 0);
+      sheet.weights[2] = vec2(0, 1);
       stats.incidentFlux += double(luminanceOf(sheet.flux));
       for (int i = 0; i < 3; ++i) {
         uint32_t& corner = cornerOf[mesh.triangles[sheet.triangle][i]];
@@ -194,6 +202,8 @@ void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
       (cuts == 0 ? sheets : forced[cuts]).push_back(sheet);
     }
   }
+  // Untouched memory costs nothing; a list of nodes that grows is there twice while it is copied.
+  tree.nodes.reserve(kNodesOfCorner * pending_.size());
   settleCorners();
   const auto setNodes = [&](std::vector<Sheet>& some) {
     for (Sheet& sheet : some)
@@ -303,6 +313,9 @@ void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed,
     part(mixed, next);
     sheets.swap(next);
   }
+  mixed.clear();
+  next.clear();
+  memory_.giveBackLarge();
 }
 
 // Its children's paths are new, to be bent and traced.

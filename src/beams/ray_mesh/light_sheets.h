@@ -58,6 +58,9 @@ struct SheetMemory {
   std::vector<PathAsk> cutAsks;
   std::vector<uint32_t> fresh, asked, ahead;
   std::vector<Sheet> sheets, next, mixed, landed, worst;
+
+  // Gives back lists that are larger than those of a picture that is made again and again.
+  void giveBackLarge();
 };
 
 class LightSheets {
@@ -100,7 +103,7 @@ class LightSheets {
   vec3 cornerPosition(const Sheet& sheet, vec2 weights) const;
   vec3 fluxOf(const Sheet& sheet) const;
   vec3 fluxOf(const Sheet& sheet, vec3 a, vec3 b, vec3 c) const;
-  std::vector<Sheet> sheetsOfTriangles(uint32_t light) const;
+  std::vector<vec3> fluxesOntoTriangles(const CasterLight& light) const;
   void expand(const Sheet& sheet, std::vector<Sheet>& children);
   void traceChildren(std::vector<Sheet>& children);
   void prune(std::vector<Sheet>& sheets);

@@ -408,6 +408,8 @@ void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSetting
   mesh.stats.rays = sheets.tree.raysTraced;
   mesh.stats.bytes = sheets.bytes();
   mesh.nodes = std::move(sheets.tree.nodes);
+  landed.clear();
+  memory.giveBackLarge();
 }
 
 }  // namespace nephroid
