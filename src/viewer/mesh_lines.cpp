@@ -58,8 +58,9 @@ void addWay(const RayMesh& mesh, uint32_t node, vec3 color, std::vector<SceneLin
 MeshLines meshLines(const RayMesh& mesh, std::size_t mostBeams, std::size_t mostWays) {
   const std::size_t count = mesh.beams.size(), stride = (count + mostBeams - 1) / mostBeams;
   const std::size_t wayStride = (count + mostWays - 1) / mostWays;
-  const uint32_t colors = mostCuts(mesh) + 1;
   MeshLines lines;
+  if (mesh.paths.size() != count) return lines;  // lamps that were followed one after the other
+  const uint32_t colors = mostCuts(mesh) + 1;
   std::vector<Side> sides;
   for (std::size_t i = 0; i < count; i += stride) {
     const LandedBeam& beam = mesh.beams[i];

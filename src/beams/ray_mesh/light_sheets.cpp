@@ -14,26 +14,12 @@ namespace {
 
 constexpr std::size_t kGrain = 256;
 constexpr uint32_t kMaximumForcedCuts = 7;
-// A branch that carries no more of the light that fed it is left out, as far as the error allows.
-constexpr float kWeakBranch = 0.02f;
-constexpr double kLeftOut = 0.07;  // of the error
-// Of the error: less than this is not followed sheet by sheet.
-constexpr float kLeastCarried = 2e-4f;
-constexpr float kBoundedCarried = 0.2f;  // of a beam, likewise
 // Nodes that the path of a caster's own corner has, about.
 constexpr std::size_t kNodesOfCorner = 8;
-// Beams that a sheet of a caster's own triangle becomes, about.
-constexpr float kBeamsOfFirst = 4;
+// Of the paths and sheets that a caster's triangle has, about.
+constexpr std::size_t kBytesOfTriangle = 3000;
 // By how much a single path stands for light of a wider beam at each boundary that it passes.
 constexpr float kSpreadAtBoundary = 2.0f;
-
-// 0 to 1, at random, the same for the same numbers.
-float chance(uint32_t a, uint32_t b) {
-  uint64_t x = (uint64_t(a) << 32 | b) + 0x9e3779b97f4a7c15u;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-  return float((x ^ x >> 31) >> 40) * 0x1p-24f;
-}
 
 // Whether the three paths of a sheet are one way.
 bool isOneWay(const std::vector<PathNode>& nodes, const Sheet& sheet) {
@@ -51,7 +37,7 @@ void SheetMemory::giveBackLarge() {
 }
 
 LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const RayMeshSettings& settingsOf,
-                         SheetMemory& memoryOf)
+                         const LightGroup& group, SheetMemory& memoryOf)
     : tree(sceneOf, rayScene, settingsOf.paths, settingsOf.target),
       scene_(sceneOf),
       rays_(rayScene),
@@ -61,6 +47,8 @@ LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const R
       pending_(memoryOf.pending),
       firstOfCorner_(memoryOf.firstOfCorner),
       middles_(memoryOf.middles) {
+  lights_.erase(lights_.begin() + std::ptrdiff_t(group.first + group.count), lights_.end());
+  lights_.erase(lights_.begin(), lights_.begin() + std::ptrdiff_t(group.first));
   pending_.clear();
   firstOfCorner_.clear();
   middles_.resize(lights_.size());
@@ -70,6 +58,27 @@ LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const R
     const uint32_t mesh = scene_.objects[light.object].mesh;
     if (!rims_[mesh]) rims_[mesh].emplace(scene_.meshes[mesh]);
   }
+}
+
+std::vector<LightGroup> lightGroups(const Scene& scene, const RayScene& rays,
+                                    const RayMeshSettings& settings) {
+  MediaTable media(rays);
+  const std::vector<CasterLight> lights = lightOntoCasters(scene, rays, media);
+  const auto bytesOf = [&](const CasterLight& light) {
+    return kBytesOfTriangle * scene.meshOf(scene.objects[light.object]).triangles.size();
+  };
+  std::vector<LightGroup> groups;
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    bytes += bytesOf(lights[i]);
+    if (groups.empty() || bytes > settings.mostBytes) {
+      groups.push_back({i, 0});
+      bytes = bytesOf(lights[i]);
+    }
+    ++groups.back().count;
+  }
+  for (LightGroup& group : groups) group.share = double(group.count) / double(lights.size());
+  return groups;
 }
 
 uint32_t LightSheets::addCorner(const NewCorner& corner) {
@@ -147,14 +156,6 @@ vec3 LightSheets::fluxOf(const Sheet& sheet, vec3 a, vec3 b, vec3 c) const {
 vec3 LightSheets::fluxOf(const Sheet& sheet) const {
   return fluxOf(sheet, cornerPosition(sheet, sheet.weights[0]), cornerPosition(sheet, sheet.weights[1]),
                 cornerPosition(sheet, sheet.weights[2]));
-}
-
-// lm: the part of the incident flux that is `ofError` of the error. Of casters of so many triangles that the
-// bound on beams will be met, no less than `ofBeam` of what a beam then has in the mean.
-float LightSheets::leastFlux(float ofError, float ofBeam) const {
-  const float most = float(settings_.mostBeams);
-  const float bounded = ofBeam * std::min(1.0f, kBeamsOfFirst * float(firstSheets_) / most) / most;
-  return std::max(ofError * settings_.error, bounded) * float(stats.incidentFlux);
 }
 
 // lm onto each of its caster's triangles.
@@ -353,70 +354,6 @@ void LightSheets::traceChildren(std::vector<Sheet>& children) {
   for (const Sheet& child : children)
     for (const uint32_t node : child.node) tree.queue(node, ahead);
   tree.trace(ahead);
-}
-
-// Leaves branches out that carry little of the light that fed them, the weakest first, as far as the error
-// allows; and those that carry nothing.
-void LightSheets::prune(std::vector<Sheet>& sheets) {
-  constexpr int kBuckets = 256;
-  constexpr float kBucketsAnOctave = 8;
-  std::vector<float> part(sheets.size());
-  double inBucket[kBuckets] = {};
-  const auto bucketOf = [&](float transmittance) {
-    return int(glm::clamp(-std::log2(transmittance) * kBucketsAnOctave, 0.0f, float(kBuckets - 1)));
-  };
-  for (std::size_t i = 0; i < sheets.size(); ++i) {
-    const float flux = luminanceOf(sheets[i].flux), left = luminanceOf(carried(sheets[i]));
-    part[i] = flux > 0 ? left / flux : 0;
-    if (part[i] > 0 && part[i] < kWeakBranch) inBucket[bucketOf(part[i])] += double(left);
-  }
-  double allowed = kLeftOut * double(settings_.error) * stats.incidentFlux - stats.droppedFlux;
-  int last = kBuckets;  // the first that is left out
-  while (last > 0 && allowed >= inBucket[last - 1]) allowed -= inBucket[--last];
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < sheets.size(); ++i) {
-    const bool isDropped = part[i] < kWeakBranch && (part[i] <= 0 || bucketOf(part[i]) >= last);
-    if (isDropped) {
-      stats.droppedFlux += double(luminanceOf(carried(sheets[i])));
-    } else {
-      sheets[kept++] = sheets[i];
-    }
-  }
-  sheets.resize(kept);
-}
-
-// A path alone goes one way at each boundary, at random by what goes there, with the light of all; and of
-// sheets that carry little some are taken out by lot, with their light given to the others: in the mean
-// nothing is missing, and long ways of trapped light cost little.
-void LightSheets::chooseAmongWeak(std::vector<Sheet>& children) {
-  const float least = leastFlux(kLeastCarried, kBoundedCarried);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < children.size(); ++i) {
-    Sheet child = children[i];
-    float left = luminanceOf(carried(child));
-    if (!(left > 0)) continue;
-    const PathNode& node = tree.nodes[child.node[0]];
-    if (child.cuts == kWhole && i + 1 < children.size() && children[i + 1].cuts == kWhole &&
-        tree.nodes[children[i + 1].node[0]].parent == node.parent) {
-      const float other = luminanceOf(carried(children[i + 1]));
-      const bool isOther = chance(node.corner, 2u * node.generation) * (left + other) >= left;
-      const float all = left + other;
-      if (isOther) {
-        child = children[i + 1];
-        left = other;
-      }
-      child.flux *= all / left;
-      left = all;
-      ++i;
-    }
-    if (left < least && child.generation > 1) {
-      if (chance(node.corner, 2u * node.generation + 1) * least >= left) continue;
-      child.flux *= least / left;
-      child.gain *= least / left;
-    }
-    children[kept++] = child;
-  }
-  children.resize(kept);
 }
 
 }  // namespace nephroid

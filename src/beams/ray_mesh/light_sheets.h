@@ -63,10 +63,21 @@ struct SheetMemory {
   void giveBackLarge();
 };
 
+// Lamps whose light is followed together, of those of lightOntoCasters.
+struct LightGroup {
+  std::size_t first = 0, count = 0;
+  double share = 1;  // of all
+};
+
+// All in one, where there is memory for their paths; else as few groups as there have to be.
+std::vector<LightGroup> lightGroups(const Scene& scene, const RayScene& rays,
+                                    const RayMeshSettings& settings);
+
 class LightSheets {
  public:
-  // All must outlive this.
-  LightSheets(const Scene& scene, const RayScene& rays, const RayMeshSettings& settings, SheetMemory& memory);
+  // All but `group` must outlive this.
+  LightSheets(const Scene& scene, const RayScene& rays, const RayMeshSettings& settings,
+              const LightGroup& group, SheetMemory& memory);
 
   // The sheets at the casters' own triangles, which are appended.
   void addFirstSheets(std::vector<Sheet>& sheets);

@@ -74,9 +74,10 @@ struct RayMeshStats {
 struct SheetMemory;
 
 struct RayMesh {
+  // None where there are so many triangles and lamps that the lamps are followed one after the other.
   std::vector<PathNode> nodes;
-  std::vector<LandedBeam> beams;
   std::vector<BeamPaths> paths;  // of the beams
+  std::vector<LandedBeam> beams;
   RayMeshStats stats;
   std::shared_ptr<SheetMemory> memory;  // to be used again
 };

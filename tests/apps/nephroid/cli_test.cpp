@@ -81,6 +81,28 @@ TEST_F(SceneCommand, WorksWithinTheErrorAndTheMemoryAskedFor) {
   EXPECT_LE(stats["left_out"], 0.2 * 0.02);
 }
 
+TEST_F(SceneCommand, TooLittleMemoryIsAFailureThatSaysHowMuchWouldDo) {
+  write("ball.toml", std::string(kFloor) + R"(
+[[material]]
+name = "glass"
+type = "dielectric"
+ior = 1.5
+[[object]]
+name = "ball"
+material = "glass"
+shape = "sphere"
+radius = 0.4
+vertices = 100000
+translation = [0, 1, 0]
+)");
+  const ProgramResult result =
+      runProgram({"measure", at("ball.toml"), "--sensor", "floor", "--memory", "16", "-o", at("ball.exr")});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(result.hasOneLineOfErrors()) << result.errors;
+  EXPECT_NE(result.errors.find("--memory 16"), std::string::npos) << result.errors;
+  EXPECT_FALSE(std::filesystem::exists(at("ball.exr")));
+}
+
 TEST_F(SceneCommand, BakedTablesAreUsedForTheirSceneAndRefusedForAnother) {
   const std::string ball = R"(
 [[material]]

@@ -1,0 +1,336 @@
+#include "beams/ray_mesh/refinement.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/index_range.h"
+
+namespace nephroid {
+namespace {
+
+constexpr int kMostLevels = 16;
+// A sheet whose corners differ more than this in density is taken to have one density alone.
+constexpr float kSteep = 2.5f;
+// Of the detail that a receiver's point shows: light that is no more off is where it should be.
+constexpr float kUnseen = 0.3f, kUnseenInFold = 1;
+// Of what density that changes along a side would mean if it came of bending alone.
+constexpr float kUneven = 0.8f;
+// Light that is denser than this, times the mean of what is lit, is focused.
+constexpr double kFocus = 8;
+// Of the size of what is lit, the most that one path stands for.
+constexpr float kWidestPath = 1.0f / 8;
+// Of the mean of what is lit, the brightest that one path may be, so that it is not seen as a speck.
+constexpr float kBrightestPath = 0.02f;
+// Texels that a beam has across and along, at most.
+constexpr float kTexelsAcross = 2.5f, kTexelsAlong = 12;
+// A sheet of so much gain is one that was chosen by lot.
+constexpr float kChosen = 2;
+// Area and side of a triangle whose corners are 1 off its middle.
+constexpr double kTangentArea = 1.299;
+constexpr float kSideOfTangent = 1.732f;
+
+// Unit, on the side of the receiver that the path's light lands on.
+vec3 litNormal(const PathNode& node) {
+  return dot(node.direction, node.geometricNormal) < 0 ? node.geometricNormal : -node.geometricNormal;
+}
+
+// Corners of a triangle about a point, each `radius` off.
+mat3 tangentFrame(vec3 normal, float radius) {
+  const vec3 aside = std::abs(normal.x) < 0.6f ? vec3(1, 0, 0) : vec3(0, 1, 0);
+  const vec3 u = normalize(cross(normal, aside)), v = cross(normal, u);
+  return {radius * u, radius * (-0.5f * u + 0.866f * v), radius * (-0.5f * u - 0.866f * v)};
+}
+
+}  // namespace
+
+Refinement::Refinement(LightSheets& sheetsOf, const RayMeshSettings& settingsOf, SheetMemory& memoryOf)
+    : sheets_(sheetsOf), settings_(settingsOf), memory_(memoryOf) {}
+
+void Refinement::run(std::vector<Sheet>& landed, Progress& progress) {
+  for (int level = 0;; ++level) {
+    progress.advance();
+    describe(landed);
+    if (level == 0) allowed_ = allowedSquares();
+    const double squares = judge(landed);
+    if (allowed_ > 0)
+      sheets_.stats.error = std::sqrt((squares + chanceSquares(landed)) / allowed_) * double(settings_.error);
+    if (squares <= allowed_ || level == kMostLevels || isFull(landed)) return;
+    if (!cutWorst(landed, squares, progress)) return;
+  }
+}
+
+bool Refinement::isFull(const std::vector<Sheet>& landed) {
+  RayMeshBound& bound = sheets_.stats.bound;
+  if (landed.size() >= settings_.mostBeams) bound = RayMeshBound::beams;
+  if (sheets_.bytes() > settings_.mostBytes) bound = RayMeshBound::bytes;
+  return bound != RayMeshBound::none;
+}
+
+void Refinement::describeAnew(const std::vector<Sheet>& landed) {
+  landings_.clear();
+  around_.clear();
+  describe(landed);
+}
+
+Landing Refinement::landingOf(const Sheet& sheet) const {
+  const std::vector<PathNode>& nodes = sheets_.tree.nodes;
+  const PathNode &a = nodes[sheet.node[0]], &b = nodes[sheet.node[1]], &c = nodes[sheet.node[2]];
+  Landing landing;
+  landing.flux = sheets_.carried(sheet);
+  landing.luminance = luminanceOf(landing.flux);
+  const vec3 across = cross(b.position - a.position, c.position - a.position);
+  const float doubled = length(across);
+  landing.area = 0.5f * doubled;
+  landing.longest = std::max(
+      {distance(a.position, b.position), distance(b.position, c.position), distance(c.position, a.position)});
+  landing.width = landing.longest > 0 ? doubled / landing.longest : 0;
+  landing.detail = std::clamp(settings_.detailPerMeter * distance(a.position, settings_.eye),
+                              settings_.detail, std::max(settings_.mostDetail, settings_.detail));
+  landing.isMirrored = dot(across, a.direction) < 0;
+  if (settings_.target.isPlane) {
+    const PlaneGrid& grid = settings_.target.plane;
+    vec2 low(std::numeric_limits<float>::infinity()), high(-low);
+    for (const PathNode* node : {&a, &b, &c}) {
+      const vec3 offset = node->position - grid.corner;
+      const vec2 texel(dot(offset, grid.axisU), dot(offset, grid.axisV));
+      low = min(low, texel);
+      high = max(high, texel);
+    }
+    landing.isWanted = glm::all(glm::lessThan(low, settings_.wantedHigh)) &&
+                       glm::all(glm::greaterThan(high, settings_.wantedLow));
+  }
+  return landing;
+}
+
+void Refinement::describe(const std::vector<Sheet>& landed) {
+  const std::size_t known = landings_.size();
+  landings_.resize(landed.size());
+  oneapi::tbb::parallel_for(IndexRange(known, landed.size(), 512), [&](const IndexRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) landings_[i] = landingOf(landed[i]);
+  });
+  around_.resize(sheets_.tree.nodes.size());
+  for (std::size_t i = known; i < landed.size(); ++i) include(landed[i], landings_[i], 1);
+}
+
+// Adds a sheet to the sums at its nodes, or takes it away: `sign` is 1 or -1.
+void Refinement::include(const Sheet& sheet, const Landing& landing, int sign) {
+  if (sheet.cuts == kWhole) return;
+  for (const uint32_t node : sheet.node) {
+    Around& around = around_[node];
+    around.flux += sign * double(landing.luminance);
+    around.incident += sign * double(luminanceOf(sheet.flux));
+    around.area += sign * double(landing.area);
+    around.count[landing.isMirrored] += uint32_t(sign);
+  }
+}
+
+// m2 where nine tenths of the light land, the densest first.
+double Refinement::areaOfMost(double flux) const {
+  constexpr int kBuckets = 1024;
+  constexpr float kBucketsAnOctave = 16, kMiddle = kBuckets / 2;
+  double areaIn[kBuckets] = {}, fluxIn[kBuckets] = {};
+  double whole = 0;
+  for (const Landing& landing : landings_) whole += double(landing.area);
+  const float unit = float(flux / std::max(whole, 1e-30));
+  for (const Landing& landing : landings_) {
+    const float density = landing.luminance / std::max(landing.area, landing.detail * landing.detail);
+    if (!(density > 0)) continue;
+    const float bucket = kMiddle - kBucketsAnOctave * std::log2(density / unit);
+    const int i = int(std::clamp(bucket, 0.0f, float(kBuckets - 1)));
+    areaIn[i] += double(landing.area);
+    fluxIn[i] += double(landing.luminance);
+  }
+  double area = 0, sum = 0;
+  for (int i = 0; i < kBuckets && sum <= 0.9 * flux; ++i) {
+    area += areaIn[i];
+    sum += fluxIn[i];
+  }
+  return area;
+}
+
+// What the squares of the error, times the areas where they are made, may add up to: (lm/m2)^2 m2.
+double Refinement::allowedSquares() {
+  double flux = 0;
+  for (const Landing& landing : landings_)
+    if (landing.isWanted) flux += double(landing.luminance);
+  double area = double(settings_.area);
+  if (area <= 0) area = areaOfMost(flux);
+  litArea_ = float(area);
+  mean_ = flux / std::max(area, 1e-30);
+  return std::pow(double(settings_.error) * mean_, 2) * area;
+}
+
+// By how much the density of the light changes across a sheet, over its mean; a fold has no density.
+float Refinement::steepness(const Sheet& sheet, const Landing& landing) const {
+  const float own = luminanceOf(sheet.flux) / std::max(landing.area, 1e-30f);
+  float least = own, most = own;
+  for (const uint32_t node : sheet.node) {
+    if (around_[node].isFold()) return kSteep;
+    const float density = around_[node].bundling();
+    least = std::min(least, density);
+    most = std::max(most, density);
+  }
+  return std::min(least > 0 ? most / least - 1 : kSteep, kSteep);
+}
+
+double Refinement::errorSquares(const Sheet& sheet, const Landing& landing) const {
+  if (sheet.cuts == kWhole || !landing.isWanted) return 0;
+  const float detail = landing.detail;
+  const float steep = steepness(sheet, landing);
+  // m that a side's middle lands off the middle of its ends, or would if what makes the density change were
+  // that: light that meets the caster unevenly is no straight line between corners either.
+  const float moved = 0.125f * steep * landing.longest;
+  const float seen = std::max(std::min(sheet.bend, moved), kUneven * moved) -
+                     (steep < kSteep ? kUnseen : kUnseenInFold) * detail;
+  const float bend = std::max(seen, 0.0f);
+  const float width = landing.width + detail;
+  const float off = bend / width;
+  const bool isSmooth = steep < kSteep;
+  const float relative = std::min(1.0f, (isSmooth ? 16 * off * off : 2.5f * off) + off * detail / width);
+  const float area = landing.area + detail * landing.longest + detail * detail;
+  // Where light is focused, it may be off by a part of itself.
+  const double density = std::min(double(landing.luminance) / double(area), kFocus * mean_);
+  return std::pow(density * double(relative), 2) * double(area);
+}
+
+double Refinement::judge(const std::vector<Sheet>& landed) {
+  errors_.resize(landed.size());
+  oneapi::tbb::parallel_for(IndexRange(0, landed.size(), 512), [&](const IndexRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      errors_[i] = errorSquares(landed[i], landings_[i]);
+  });
+  double sum = 0;
+  for (const double error : errors_) sum += error;
+  return sum;
+}
+
+// Cuts those that make the most of the error, so that the others make a third of what is allowed.
+bool Refinement::cutWorst(std::vector<Sheet>& landed, double squares, Progress& progress) {
+  constexpr int kBuckets = 512;
+  constexpr double kBucketsAnOctave = 4;
+  const auto bucketOf = [&](double error) {
+    return int(glm::clamp(std::log2(squares / error) * kBucketsAnOctave, 0.0, double(kBuckets - 1)));
+  };
+  double inBucket[kBuckets] = {};
+  std::size_t countInBucket[kBuckets] = {};
+  for (const double error : errors_)
+    if (error > 0) {
+      const int bucket = bucketOf(error);
+      inBucket[bucket] += error;
+      ++countInBucket[bucket];
+    }
+  double left = 0.33 * allowed_;
+  int last = kBuckets;  // the first that is left as it is
+  while (last > 1 && left >= inBucket[last - 1]) left -= inBucket[--last];
+  // Each that is cut adds three.
+  std::size_t room = (settings_.mostBeams - std::min<uint64_t>(landed.size(), settings_.mostBeams)) / 3 + 1;
+  for (int bucket = 0; bucket < last; ++bucket) {
+    if (countInBucket[bucket] > room && bucket > 0) {
+      last = bucket;
+      sheets_.stats.bound = RayMeshBound::beams;
+    }
+    room -= std::min(room, countInBucket[bucket]);
+  }
+  std::vector<Sheet>&worst = memory_.worst, &parts = memory_.sheets;
+  worst.clear();
+  parts.clear();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < landed.size(); ++i) {
+    if (errors_[i] > 0 && bucketOf(errors_[i]) < last) {
+      worst.push_back(landed[i]);
+      include(landed[i], landings_[i], -1);
+    } else {
+      landings_[kept] = landings_[i];
+      landed[kept++] = landed[i];
+    }
+  }
+  landed.resize(kept);
+  landings_.resize(kept);
+  if (worst.empty()) return false;
+  sheets_.cut(worst, parts);
+  sheets_.follow(parts, landed, progress);
+  return true;
+}
+
+// Radius (m) about the end of a single path, over which its light is spread.
+float Refinement::pathRadius(const Sheet& sheet, const Landing& landing) const {
+  const float faint = std::sqrt(landing.luminance / (kBrightestPath * std::max(float(mean_), 1e-30f)));
+  const float widest = kWidestPath * std::sqrt(litArea_);
+  return std::clamp(std::max(sheet.bend, faint), landing.detail, std::max(widest, landing.detail));
+}
+
+// The variance of what was chosen by lot, in the unit of errorSquares: of single paths, which stand for the
+// light about them, and of sheets, which stand for those that were taken out.
+double Refinement::chanceSquares(const std::vector<Sheet>& landed) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < landed.size(); ++i) {
+    const Landing& landing = landings_[i];
+    const bool isPath = landed[i].cuts == kWhole;
+    if (!landing.isWanted || (!isPath && landed[i].gain < kChosen)) continue;
+    const double radius = isPath ? double(pathRadius(landed[i], landing)) : 0;
+    const double area = isPath ? kTangentArea * radius * radius : double(landing.area);
+    const double luminance = double(landing.luminance);
+    const double point = double(settings_.detailsOfPoint * landing.detail);
+    sum += luminance * luminance / std::max(area, point * point);
+  }
+  return sum;
+}
+
+LandedBeam Refinement::beamOf(const Sheet& sheet, const Landing& landing) const {
+  LandedBeam beam;
+  beam.flux = landing.flux;
+  beam.width = landing.width;
+  float along = landing.longest;
+  beam.isPath = sheet.cuts == kWhole;
+  const PathNode& first = sheets_.tree.nodes[sheet.node[0]];
+  mat3 tangent(0);
+  if (beam.isPath) {
+    const float radius = pathRadius(sheet, landing);
+    const bool isPlane = settings_.target.isPlane;
+    tangent = tangentFrame(isPlane ? settings_.target.plane.normal : first.geometricNormal, radius);
+    beam.width = 1.5f * radius;
+    along = kSideOfTangent * radius;
+  }
+  beam.texel = std::max({landing.detail, beam.width / kTexelsAcross, along / kTexelsAlong});
+  const bool isSmooth = !beam.isPath && steepness(sheet, landing) < kSteep;
+  vec3 density(1);
+  beam.object = first.object;
+  beam.leastNormal = beam.mostNormal = litNormal(first);
+  for (int c = 0; c < 3; ++c) {
+    const PathNode& node = sheets_.tree.nodes[sheet.node[c]];
+    beam.corner[c] = node.position + tangent[c];
+    beam.leastNormal = min(beam.leastNormal, litNormal(node));
+    beam.mostNormal = max(beam.mostNormal, litNormal(node));
+    if (isSmooth) density[c] = around_[sheet.node[c]].density();
+  }
+  beam.density = isSmooth ? 3.0f * density / (density.x + density.y + density.z) : vec3(1);
+  return beam;
+}
+
+void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) {
+  std::vector<uint32_t> wanted;
+  wanted.reserve(landed.size());
+  RayMeshStats& stats = sheets_.stats;
+  for (uint32_t i = 0; i < landed.size(); ++i) {
+    if (!landings_[i].isWanted) continue;
+    wanted.push_back(i);
+    stats.landedFlux += double(landings_[i].luminance);
+    stats.singlePaths += landed[i].cuts == kWhole;
+    ++stats.beamsByLevel[std::min<std::size_t>(landed[i].cuts, kToldLevels - 1)];
+    ++stats.beamsByBranch[std::min<std::size_t>(landed[i].generation, kToldLevels - 1)];
+  }
+  const std::size_t first = mesh.beams.size();
+  mesh.beams.resize(first + wanted.size());
+  oneapi::tbb::parallel_for(IndexRange(0, wanted.size(), 512), [&](const IndexRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      mesh.beams[first + i] = beamOf(landed[wanted[i]], landings_[wanted[i]]);
+  });
+  for (const uint32_t i : wanted) {
+    const Sheet& sheet = landed[i];
+    mesh.paths.push_back({{sheet.node[0], sheet.node[1], sheet.node[2]}, sheet.cuts});
+  }
+}
+
+}  // namespace nephroid
