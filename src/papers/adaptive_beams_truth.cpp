@@ -31,7 +31,7 @@ constexpr std::array<const char*, 6> kCountedScenes{"ball-lamp", "ball-sun-past"
                                                     "ring-sun",  "slab-lamp",     "wave-sun-past"};
 // Without counts: beside the reference.
 constexpr std::array<const char*, 2> kReferredScenes{"glass-ball", "paper5-pool"};
-constexpr uint32_t kReferencePasses = 48;
+constexpr uint32_t kPassesBeside = 48;
 
 TechniqueSettings settingsWithin(float error) {
   TechniqueSettings settings;
@@ -151,7 +151,7 @@ Beside besideReference(const std::filesystem::path& scenes, const std::string& n
   const RayScene rays(beside.scene);
   ReferenceSensor reference(beside.scene, rays, sensor,
                             referenceSettingsOf({}, Paths::all, sensor.resolution));
-  refine(reference, {.passes = kReferencePasses}, progress);
+  refine(reference, {.passes = kPassesBeside}, progress);
   const Image image = reference.image();
   beside.lux = *image.find("caustics.G");
   double sum = 0, variance = 0;
@@ -211,7 +211,7 @@ PaperTable measureAdaptiveError(const PaperBench& bench, Progress& progress) {
       "adaptive-beams-error",
       "adaptive-beams by the error that is asked for, all paths: beside scenes/truth, and beside "
       "the reference of " +
-          std::to_string(kReferencePasses) + " passes (glass-ball, paper5-pool); median of 3 runs",
+          std::to_string(kPassesBeside) + " passes (glass-ball, paper5-pool); median of 3 runs",
       {}};
   progress.begin("errors asked for", all.size() * kErrors.size());
   for (const Beside& beside : all)
