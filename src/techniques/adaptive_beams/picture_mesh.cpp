@@ -11,7 +11,7 @@ namespace {
 // Beams for each pixel of a picture that is to be moved by hand, with an error of 1 %; more for a smaller
 // one.
 constexpr float kBeamsOfPixel = 1.0f / 8, kErrorOfMost = 0.01f;
-constexpr uint64_t kFewestBeams = 20'000, kMostBeams = 4'000'000;
+constexpr uint64_t kFewestBeams = 40'000, kMostBeams = 4'000'000;
 // Of the smallest caster, what a receiver's point shows at most, however far the eye is.
 constexpr float kMostDetail = 1.0f / 100;
 constexpr float kLeastDetail = 1.0f / 20000;
