@@ -10,56 +10,14 @@
 #include "geometry/curved_triangle.h"
 #include "geometry/mesh_checks.h"
 #include "scene/checks.h"
+#include "trace/embree_calls.h"
 #include "trace/smooth_patches.h"
-
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 
 namespace nephroid {
 namespace {
 
 constexpr float kSelfIntersectionFraction =
     1e-5f;  // of the scene's extent: some fifty times float's rounding there
-
-#if RTC_VERSION_MAJOR >= 4
-void embreeIntersect(RTCScene scene, RTCRayHit& query) {
-  rtcIntersect1(scene, &query);
-}
-void embreeOccluded(RTCScene scene, RTCRay& ray) {
-  rtcOccluded1(scene, &ray);
-}
-void embreeOccluded(RTCScene scene, const int* valid, RTCRay8& rays) {
-  rtcOccluded8(valid, scene, &rays);
-}
-void embreeIntersect(RTCScene scene, const int* valid, RTCRayHit8& rays) {
-  rtcIntersect8(valid, scene, &rays);
-}
-#else
-void embreeIntersect(RTCScene scene, RTCRayHit& query) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene, &context, &query);
-}
-void embreeOccluded(RTCScene scene, RTCRay& ray) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(scene, &context, &ray);
-}
-void embreeOccluded(RTCScene scene, const int* valid, RTCRay8& rays) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcOccluded8(valid, scene, &context, &rays);
-}
-void embreeIntersect(RTCScene scene, const int* valid, RTCRayHit8& rays) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect8(valid, scene, &context, &rays);
-}
-#endif
 
 struct alignas(64) RayCounter {
   std::atomic<uint64_t> count{0};
@@ -73,28 +31,6 @@ oneapi::tbb::enumerable_thread_specific<RayCounter>& rayCounters() {
 void countRays(uint64_t rays) {
   thread_local RayCounter& counter = rayCounters().local();
   counter.count.store(counter.count.load(std::memory_order_relaxed) + rays, std::memory_order_relaxed);
-}
-
-RTCRay embreeRay(const Ray& ray) {
-  RTCRay query{};
-  query.org_x = ray.origin.x;
-  query.org_y = ray.origin.y;
-  query.org_z = ray.origin.z;
-  query.dir_x = ray.direction.x;
-  query.dir_y = ray.direction.y;
-  query.dir_z = ray.direction.z;
-  query.tnear = ray.nearDistance;
-  query.tfar = ray.farDistance;
-  query.mask = ~0u;
-  return query;
-}
-
-RTCRayHit embreeQuery(const Ray& ray) {
-  RTCRayHit query{};
-  query.ray = embreeRay(ray);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  return query;
 }
 
 // All that a hit is described by, in one place of memory: a ray through a large mesh finds none of it in a
@@ -312,15 +248,7 @@ void RayScene::occluded(vec3 origin, std::span<const vec3> directions, float nea
     RTCRay8 rays{};
     for (std::size_t i = 0; i < count; ++i) {
       valid[i] = -1;
-      rays.org_x[i] = origin.x;
-      rays.org_y[i] = origin.y;
-      rays.org_z[i] = origin.z;
-      rays.dir_x[i] = directions[first + i].x;
-      rays.dir_y[i] = directions[first + i].y;
-      rays.dir_z[i] = directions[first + i].z;
-      rays.tnear[i] = nearDistance;
-      rays.tfar[i] = std::numeric_limits<float>::infinity();
-      rays.mask[i] = ~0u;
+      setRay(rays, i, {origin, directions[first + i], nearDistance});
     }
     embreeOccluded(impl_->root(), valid, rays);
     for (std::size_t i = 0; i < count; ++i) isOccluded[first + i] = rays.tfar[i] < 0;
@@ -335,17 +263,8 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
     alignas(32) int valid[kWidth] = {};
     RTCRayHit8 packet{};
     for (std::size_t i = 0; i < kWidth; ++i) {
-      const Ray& ray = rays[first + std::min(i, count - 1)];
       valid[i] = i < count ? -1 : 0;
-      packet.ray.org_x[i] = ray.origin.x;
-      packet.ray.org_y[i] = ray.origin.y;
-      packet.ray.org_z[i] = ray.origin.z;
-      packet.ray.dir_x[i] = ray.direction.x;
-      packet.ray.dir_y[i] = ray.direction.y;
-      packet.ray.dir_z[i] = ray.direction.z;
-      packet.ray.tnear[i] = ray.nearDistance;
-      packet.ray.tfar[i] = ray.farDistance;
-      packet.ray.mask[i] = ~0u;
+      setRay(packet.ray, i, rays[first + std::min(i, count - 1)]);
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
@@ -375,17 +294,8 @@ void RayScene::occluded(std::span<const Ray> rays, std::span<uint8_t> isOccluded
     alignas(32) int valid[kWidth] = {};
     RTCRay8 packet{};
     for (std::size_t i = 0; i < kWidth; ++i) {
-      const Ray& ray = rays[first + std::min(i, count - 1)];
       valid[i] = i < count ? -1 : 0;
-      packet.org_x[i] = ray.origin.x;
-      packet.org_y[i] = ray.origin.y;
-      packet.org_z[i] = ray.origin.z;
-      packet.dir_x[i] = ray.direction.x;
-      packet.dir_y[i] = ray.direction.y;
-      packet.dir_z[i] = ray.direction.z;
-      packet.tnear[i] = ray.nearDistance;
-      packet.tfar[i] = ray.farDistance;
-      packet.mask[i] = ~0u;
+      setRay(packet, i, rays[first + std::min(i, count - 1)]);
     }
     embreeOccluded(impl_->root(), valid, packet);
     for (std::size_t i = 0; i < count; ++i) isOccluded[first + i] = packet.tfar[i] < 0;

@@ -1,4 +1,4 @@
-// Traces rays with Embree. Only this file's .cpp includes Embree.
+// Traces rays with Embree, which only ray_scene.cpp calls, by embree_calls.h.
 #pragma once
 
 #include <cstdint>

@@ -41,7 +41,7 @@ CellTree::CellTree(LandedLight& light, const RayMesh& mesh, const std::vector<Fa
     const std::size_t end = std::min(faced_.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) bounds_[i] = boundsOf(faced_[i]);
   });
-  grant(wishes([&](const FacedBeam& one, const Bounds& bounds, WishList& asked) {
+  addCells(requestedBy([&](const FacedBeam& one, const Bounds& bounds, CellRequests& asked) {
     const float size = sizeAt(one.level);
     forCells(bounds, one.level, [&](uvec3 at) {
       if (bounds.meets(grid.origin + size * vec3(at), size))
@@ -49,14 +49,14 @@ CellTree::CellTree(LandedLight& light, const RayMesh& mesh, const std::vector<Fa
     });
   }));
   for (uint32_t round = 0; round < kLevelsToPart && markShared(); ++round)
-    grant(wishes([&](const FacedBeam& one, const Bounds& bounds, WishList& asked) {
+    addCells(requestedBy([&](const FacedBeam& one, const Bounds& bounds, CellRequests& asked) {
       forCells(bounds, one.level, [&](uvec3 at) { askWithin(cellAt(one, at), at, one, bounds, asked); });
     }));
 }
 
 // For the cells within shared ones, where they are not yet there.
 void CellTree::askWithin(uint32_t cell, uvec3 at, const FacedBeam& faced, const Bounds& bounds,
-                         WishList& asked) const {
+                         CellRequests& asked) const {
   const CellPlace& place = places[cell];
   const uint32_t toPart = mesh_.beams[faced.beam].isPath ? kLevelsToPartPaths : kLevelsToPart;
   if (!place.isShared || place.level < faced.level || place.level >= faced.level + toPart) return;
@@ -149,34 +149,34 @@ uint32_t CellTree::cellAt(const FacedBeam& faced, uvec3 at) const {
 
 // What ask(beam, bounds, asked) adds to its list for all beams: sorted, each once.
 template <class Ask>
-std::vector<CellTree::Wish> CellTree::wishes(const Ask& ask) const {
-  std::vector<std::vector<Wish>> chunks((faced_.size() + kChunk - 1) / kChunk);
-  const auto sortOut = [](std::vector<Wish>& some) {
+std::vector<CellTree::CellRequest> CellTree::requestedBy(const Ask& ask) const {
+  std::vector<std::vector<CellRequest>> chunks((faced_.size() + kChunk - 1) / kChunk);
+  const auto sortOut = [](std::vector<CellRequest>& some) {
     std::sort(some.begin(), some.end());
     some.erase(std::unique(some.begin(), some.end()), some.end());
   };
   oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {
     const std::size_t end = std::min(faced_.size(), (chunk + 1) * kChunk);
-    WishList asked;
+    CellRequests asked;
     for (std::size_t i = chunk * kChunk; i < end; ++i) ask(faced_[i], bounds_[i], asked);
-    sortOut(asked.wishes);
-    chunks[chunk] = std::move(asked.wishes);
+    sortOut(asked.requests);
+    chunks[chunk] = std::move(asked.requests);
   });
-  std::vector<Wish> all;
+  std::vector<CellRequest> all;
   for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
   sortOut(all);
   return all;
 }
 
-void CellTree::grant(const std::vector<Wish>& wishes) {
-  for (const Wish& wish : wishes) addCell(wish);
+void CellTree::addCells(const std::vector<CellRequest>& requests) {
+  for (const CellRequest& request : requests) addCell(request);
 }
 
 // And those about it.
-void CellTree::addCell(const Wish& wish) {
-  const uvec3 at = wish.at();
-  uint32_t cell = rootOf(light_.grid, wish.face, at >> uint32_t(wish.level));
-  for (uint32_t level = wish.level; level-- > 0;) {
+void CellTree::addCell(const CellRequest& request) {
+  const uvec3 at = request.at();
+  uint32_t cell = rootOf(light_.grid, request.face, at >> uint32_t(request.level));
+  for (uint32_t level = request.level; level-- > 0;) {
     const uvec3 half = at >> level & 1u;
     const uint32_t octant = half.x | half.y << 1 | half.z << 2;
     uint32_t child = light_.cells[cell].children[octant];
@@ -189,7 +189,7 @@ void CellTree::addCell(const Wish& wish) {
     cell = child;
   }
   uint32_t& object = places[cell].object;
-  object = object == kNone || object == wish.object ? wish.object : kMany;
+  object = object == kNone || object == request.object ? request.object : kMany;
 }
 
 CellPlace CellTree::childPlace(uint32_t cell, uint32_t octant) const {

@@ -63,13 +63,13 @@ class CellTree {
     bool meets(vec3 low, float size) const;
   };
   // A cell that a beam asks for, and the object that the beam lands on.
-  struct Wish {
+  struct CellRequest {
     uint8_t level = 0;
     uint8_t face = 0;
     uint64_t place = 0;  // 21 bits each of x, y and z, in cells of its level
     uint32_t object = kNone;
-    bool operator==(const Wish&) const = default;
-    bool operator<(const Wish& other) const {
+    bool operator==(const CellRequest&) const = default;
+    bool operator<(const CellRequest& other) const {
       return std::tie(level, face, place, object) <
              std::tie(other.level, other.face, other.place, other.object);
     }
@@ -80,19 +80,19 @@ class CellTree {
   };
 
   // Cells that are asked for. Beams next to each other ask for the same: most repetitions are left out.
-  class WishList {
+  class CellRequests {
    public:
-    void add(const Wish& wish) {
-      Wish& recent = recent_[(wish.place * 0x9e3779b97f4a7c15u >> 40 ^ wish.level) % kRecent];
-      if (recent == wish) return;
-      recent = wish;
-      wishes.push_back(wish);
+    void add(const CellRequest& request) {
+      CellRequest& recent = recent_[(request.place * 0x9e3779b97f4a7c15u >> 40 ^ request.level) % kRecent];
+      if (recent == request) return;
+      recent = request;
+      requests.push_back(request);
     }
-    std::vector<Wish> wishes;
+    std::vector<CellRequest> requests;
 
    private:
     static constexpr std::size_t kRecent = 256;
-    std::array<Wish, kRecent> recent_{};
+    std::array<CellRequest, kRecent> recent_{};
   };
 
   Bounds boundsOf(const FacedBeam& faced) const;
@@ -102,12 +102,12 @@ class CellTree {
   void forCells(const Bounds& bounds, uint32_t level, const Visit& visit) const;
   uint32_t cellAt(const FacedBeam& faced, uvec3 at) const;
   template <class Ask>
-  std::vector<Wish> wishes(const Ask& ask) const;
-  void grant(const std::vector<Wish>& wishes);
-  void addCell(const Wish& wish);
+  std::vector<CellRequest> requestedBy(const Ask& ask) const;
+  void addCells(const std::vector<CellRequest>& requests);
+  void addCell(const CellRequest& request);
   bool markShared();
   void askWithin(uint32_t cell, uvec3 at, const FacedBeam& faced, const Bounds& bounds,
-                 WishList& asked) const;
+                 CellRequests& asked) const;
   CellPlace childPlace(uint32_t cell, uint32_t octant) const;
   void placeIn(uint32_t cell, uint32_t index, const Bounds& bounds, std::vector<PlacedBeam>& placed) const;
 
