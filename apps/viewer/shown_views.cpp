@@ -21,7 +21,7 @@ std::vector<std::string> viewNames() {
   return names;
 }
 
-const NamedView& viewNamed(const std::string& name) {
+NamedView viewNamed(const std::string& name) {
   return *std::ranges::find(kViews, name, &NamedView::name);
 }
 

@@ -15,7 +15,7 @@ struct NamedView {
 };
 
 // One of viewNames().
-const NamedView& viewNamed(const std::string& name);
+NamedView viewNamed(const std::string& name);
 
 // The output that a view is, if the last frame has it.
 const PassOutput* outputOf(const ViewerState& state, const std::string& pass, const std::string& output);

@@ -34,7 +34,7 @@ void drawOverlayBoxes(ViewerState& state) {
 }
 
 void drawLevelsBox(ViewerState& state) {
-  const NamedView& levels = viewNamed("levels");
+  const NamedView levels = viewNamed("levels");
   bool isShown = state.shown == Shown::output && state.shownPass == levels.pass;
   ImGui::BeginDisabled(!outputOf(state, levels.pass, levels.output));
   if (ImGui::Checkbox("Levels", &isShown)) {

@@ -336,7 +336,7 @@ void Viewer::writeStatsOfFrames() const {
 void Viewer::writeShown() {
   if (options_.picture.empty()) return;
   for (const std::string& name : options_.shown) {
-    const NamedView& view = viewNamed(name);
+    const NamedView view = viewNamed(name);
     if (view.overlay ? lines_.empty() : !outputOf(state_, view.pass, view.output))
       throw InputError("--show " + name + ": there is nothing of this kind with " +
                        state_.settings.technique.technique + " here");

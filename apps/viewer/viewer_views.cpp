@@ -40,7 +40,7 @@ std::optional<PictureLine> inPicture(const View& view, vec2 size, const SceneLin
 }  // namespace
 
 void Viewer::show(const std::string& view) {
-  const NamedView& wanted = viewNamed(view);
+  const NamedView wanted = viewNamed(view);
   const bool isShown =
       state_.shown == Shown::output && state_.shownPass == wanted.pass && state_.shownOutput == wanted.output;
   if (isShown || !outputOf(state_, wanted.pass, wanted.output))
