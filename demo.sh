@@ -5,7 +5,7 @@ cd "$(dirname "$0")"
 . scripts/build.sh
 
 scripts/setup.sh
-build build/release all -DCMAKE_BUILD_TYPE=Release -DNEPHROID_TESTS=OFF -DNEPHROID_BENCHMARKS=OFF
+build_program
 mkdir -p out
 build/release/bin/nephroid render scenes/glass-bunny.toml -o out/glass-bunny.png --size 960x640 "$@"
 echo "The picture: $PWD/out/glass-bunny.png"

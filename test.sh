@@ -52,6 +52,9 @@ run_tests build/sanitize --label-regex quick --exclude-regex Install
 step "clang-tidy"
 scripts/check_tidy.sh build/sanitize
 
+step "gcc: the program as ./demo.sh builds it, each file by itself"
+build_program
+
 step "gcc: release, warnings as errors; all tests"
 build build/test all --preset test
 run_tests build/test

@@ -11,3 +11,8 @@ build() {
   said=$(cmake -S . -B "$folder" -G Ninja "${options[@]}" 2>&1) || { echo "$said" >&2; return 1; }
   cmake --build "$folder" --target "$target" --parallel "$(nproc)"
 }
+
+# What ./demo.sh runs: the program alone, each file compiled by itself.
+build_program() {
+  build build/release all -DCMAKE_BUILD_TYPE=Release -DNEPHROID_TESTS=OFF -DNEPHROID_BENCHMARKS=OFF
+}

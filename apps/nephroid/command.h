@@ -94,6 +94,8 @@ const std::string& commandLine();
 // command writes the same bytes.
 std::vector<ImageAttribute> imageAttributes(const PictureSettings& settings, const std::string& unit);
 
+// Tells on standard error where an error that was asked for is not reached, and writes the figures where a
+// file is given.
 void reportStats(const std::filesystem::path& file, const Stats& stats);
 
 }  // namespace nephroid

@@ -124,8 +124,7 @@ void addStats(CLI::App& command, fs::path& stats) {
   command
       .add_option("--stats", stats,
                   "Where to write the figures of the run: device, technique, source, error, left_out, "
-                  "prepare_ms, frame_ms, passes, "
-                  "counts, memory_bytes")
+                  "shortfall, prepare_ms, frame_ms, passes, counts, memory_bytes")
       ->type_name("FILE.json");
 }
 

@@ -9,6 +9,7 @@
 #include "formats/load.h"
 #include "geometry/bounds.h"
 #include "papers/counted_truth.h"
+#include "papers/frame_bench.h"
 #include "papers/paper_scenes.h"
 #include "reference/sensor.h"
 #include "reference/settings.h"

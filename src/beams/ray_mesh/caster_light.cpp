@@ -20,6 +20,29 @@ bool disperses(const Scene& scene) {
   });
 }
 
+struct FlatAndCurved {
+  vec3 flat, curved;  // m, in the mesh's own space
+};
+
+FlatAndCurved pointsAt(const Mesh& mesh, const mat3& positions, const mat3& normals, vec3 weights) {
+  const vec3 flat = positions * weights;
+  return {flat, mesh.isCurved ? flat + curvedOffset(flat, weights, positions, normals) : flat};
+}
+
+struct Corners {
+  mat3 positions, normals;
+};
+
+Corners cornersOf(const Mesh& mesh, uint32_t triangle) {
+  const uvec3 c = mesh.triangles[triangle];
+  return {mat3(mesh.positions[c.x], mesh.positions[c.y], mesh.positions[c.z]),
+          mat3(mesh.normals[c.x], mesh.normals[c.y], mesh.normals[c.z])};
+}
+
+vec3 allThree(vec2 weights) {
+  return {1 - weights.x - weights.y, weights};
+}
+
 }  // namespace
 
 std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, MediaTable& media) {
@@ -49,33 +72,6 @@ std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& ra
   }
   return all;
 }
-
-namespace {
-
-struct FlatAndCurved {
-  vec3 flat, curved;  // m, in the mesh's own space
-};
-
-FlatAndCurved pointsAt(const Mesh& mesh, const mat3& positions, const mat3& normals, vec3 weights) {
-  const vec3 flat = positions * weights;
-  return {flat, mesh.isCurved ? flat + curvedOffset(flat, weights, positions, normals) : flat};
-}
-
-struct Corners {
-  mat3 positions, normals;
-};
-
-Corners cornersOf(const Mesh& mesh, uint32_t triangle) {
-  const uvec3 c = mesh.triangles[triangle];
-  return {mat3(mesh.positions[c.x], mesh.positions[c.y], mesh.positions[c.z]),
-          mat3(mesh.normals[c.x], mesh.normals[c.y], mesh.normals[c.z])};
-}
-
-vec3 allThree(vec2 weights) {
-  return {1 - weights.x - weights.y, weights};
-}
-
-}  // namespace
 
 vec3 entryPosition(const Scene& scene, uint32_t objectIndex, uint32_t triangle, vec2 weights) {
   const Object& object = scene.objects[objectIndex];

@@ -37,18 +37,16 @@ void SheetMemory::giveBackLarge() {
 }
 
 LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const RayMeshSettings& settingsOf,
-                         const LightGroup& group, SheetMemory& memoryOf)
-    : tree(sceneOf, rayScene, settingsOf.paths, settingsOf.target),
+                         std::span<const CasterLight> lightsOf, MediaTable& media, SheetMemory& memoryOf)
+    : tree(sceneOf, rayScene, settingsOf.paths, settingsOf.target, media),
       scene_(sceneOf),
       rays_(rayScene),
       settings_(settingsOf),
-      lights_(lightOntoCasters(sceneOf, rayScene, tree.media())),
+      lights_(lightsOf),
       memory_(memoryOf),
       pending_(memoryOf.pending),
       firstOfCorner_(memoryOf.firstOfCorner),
       middles_(memoryOf.middles) {
-  lights_.erase(lights_.begin() + std::ptrdiff_t(group.first + group.count), lights_.end());
-  lights_.erase(lights_.begin(), lights_.begin() + std::ptrdiff_t(group.first));
   pending_.clear();
   firstOfCorner_.clear();
   middles_.resize(lights_.size());
@@ -60,24 +58,21 @@ LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const R
   }
 }
 
-std::vector<LightGroup> lightGroups(const Scene& scene, const RayScene& rays,
-                                    const RayMeshSettings& settings) {
-  MediaTable media(rays);
-  const std::vector<CasterLight> lights = lightOntoCasters(scene, rays, media);
-  const auto bytesOf = [&](const CasterLight& light) {
-    return kBytesOfTriangle * scene.meshOf(scene.objects[light.object]).triangles.size();
-  };
-  std::vector<LightGroup> groups;
-  std::size_t bytes = 0;
+std::vector<std::span<const CasterLight>> lightGroups(const Scene& scene, std::span<const CasterLight> lights,
+                                                      uint64_t mostBytes) {
+  std::vector<std::span<const CasterLight>> groups;
+  std::size_t first = 0;
+  uint64_t bytes = 0;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    bytes += bytesOf(lights[i]);
-    if (groups.empty() || bytes > settings.mostBytes) {
-      groups.push_back({i, 0});
-      bytes = bytesOf(lights[i]);
+    const uint64_t own = kBytesOfTriangle * scene.meshOf(scene.objects[lights[i].object]).triangles.size();
+    if (i > first && bytes + own > mostBytes) {
+      groups.push_back(lights.subspan(first, i - first));
+      first = i;
+      bytes = 0;
     }
-    ++groups.back().count;
+    bytes += own;
   }
-  for (LightGroup& group : groups) group.share = double(group.count) / double(lights.size());
+  if (first < lights.size()) groups.push_back(lights.subspan(first));
   return groups;
 }
 
@@ -88,7 +83,7 @@ uint32_t LightSheets::addCorner(const NewCorner& corner) {
 }
 
 void LightSheets::settleCorners() {
-  const std::size_t count = pending_.size(), firstNodeIndex = tree.nodes.size();
+  const std::size_t count = pending_.size();
   const uint32_t firstCorner = uint32_t(firstOfCorner_.size() - count);
   std::vector<PathNode> begun(count);
   const float margin = rays_.selfIntersectionDistance();
@@ -111,7 +106,6 @@ void LightSheets::settleCorners() {
       if (isDark[i - range.begin()]) begun[i].state = PathState::dark;
   });
   stats.shadowRays += count;
-  tree.nodes.reserve(firstNodeIndex + count);
   for (std::size_t i = 0; i < count; ++i) firstOfCorner_[firstCorner + i] = tree.addFirst(begun[i]);
   pending_.clear();
 }
@@ -203,7 +197,7 @@ void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
       (cuts == 0 ? sheets : forced[cuts]).push_back(sheet);
     }
   }
-  // Untouched memory costs nothing; a list of nodes that grows is there twice while it is copied.
+  // A list that grows is there twice while it is copied.
   tree.nodes.reserve(kNodesOfCorner * pending_.size());
   settleCorners();
   const auto setNodes = [&](std::vector<Sheet>& some) {

@@ -50,7 +50,8 @@ struct PathAsk {
   uint32_t node = kNone;  // what is found: where the path stands, or where it ended before
 };
 
-// Lists that each picture needs anew. Kept, so that their memory need not be asked for again.
+// Lists that each picture needs anew. Kept, so that their memory need not be asked for again. Of one trace
+// at a time.
 struct SheetMemory {
   std::vector<NewCorner> pending;
   std::vector<uint32_t> firstOfCorner;
@@ -63,21 +64,16 @@ struct SheetMemory {
   void giveBackLarge();
 };
 
-// Lamps whose light is followed together, of those of lightOntoCasters.
-struct LightGroup {
-  std::size_t first = 0, count = 0;
-  double share = 1;  // of all
-};
-
-// All in one, where there is memory for their paths; else as few groups as there have to be.
-std::vector<LightGroup> lightGroups(const Scene& scene, const RayScene& rays,
-                                    const RayMeshSettings& settings);
+// Light that is followed together: all of `lights`, where there is memory for the paths, else as few groups
+// as there have to be.
+std::vector<std::span<const CasterLight>> lightGroups(const Scene& scene, std::span<const CasterLight> lights,
+                                                      uint64_t mostBytes);
 
 class LightSheets {
  public:
-  // All but `group` must outlive this.
+  // All must outlive this. `media`: those that `lights` were made with.
   LightSheets(const Scene& scene, const RayScene& rays, const RayMeshSettings& settings,
-              const LightGroup& group, SheetMemory& memory);
+              std::span<const CasterLight> lights, MediaTable& media, SheetMemory& memory);
 
   // The sheets at the casters' own triangles, which are appended.
   void addFirstSheets(std::vector<Sheet>& sheets);
@@ -130,7 +126,7 @@ class LightSheets {
   const Scene& scene_;
   const RayScene& rays_;
   const RayMeshSettings& settings_;
-  std::vector<CasterLight> lights_;
+  std::span<const CasterLight> lights_;
   std::vector<std::optional<FacetRims>> rims_;  // of the meshes of casters
   std::size_t firstSheets_ = 0;
   SheetMemory& memory_;

@@ -33,14 +33,14 @@ uint32_t signatureOf(uint32_t before, const PathNode& node, bool tellsSurface = 
 
 }  // namespace
 
-PathTree::PathTree(const Scene& sceneOf, const RayScene& rayScene, Paths pathsOf, const PathTarget& targetOf)
-
+PathTree::PathTree(const Scene& sceneOf, const RayScene& rayScene, Paths pathsOf, const PathTarget& targetOf,
+                   MediaTable& media)
     : scene_(sceneOf),
       rays_(rayScene),
       paths_(pathsOf),
       target_(targetOf),
       materials_(materialsOf(sceneOf)),
-      mediaTable_(rayScene) {
+      mediaTable_(media) {
   constexpr std::size_t kFewTriangles = 128;
   for (const Object& object : sceneOf.objects)
     hasFewFaces_.push_back(sceneOf.meshOf(object).triangles.size() <= kFewTriangles);

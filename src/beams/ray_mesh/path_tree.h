@@ -57,7 +57,8 @@ struct PathTarget {
 class PathTree {
  public:
   // All must outlive this.
-  PathTree(const Scene& scene, const RayScene& rays, Paths paths, const PathTarget& target);
+  PathTree(const Scene& scene, const RayScene& rays, Paths paths, const PathTarget& target,
+           MediaTable& media);
 
   // The ways that light goes on from a node at a caster: bit kTransmitted, bit kReflected.
   uint32_t waysFrom(const PathNode& node) const;
@@ -80,8 +81,6 @@ class PathTree {
   void bend(std::span<const uint32_t> fresh);
   void trace(std::span<const uint32_t> bent);
 
-  MediaTable& media() { return mediaTable_; }
-
   std::vector<PathNode> nodes;
   uint64_t raysTraced = 0;
 
@@ -98,7 +97,7 @@ class PathTree {
   const PathTarget& target_;
   std::vector<const Material*> materials_;
   std::vector<uint8_t> hasFewFaces_;  // of the objects, whose light is parted at their edges
-  MediaTable mediaTable_;
+  MediaTable& mediaTable_;
 };
 
 }  // namespace nephroid

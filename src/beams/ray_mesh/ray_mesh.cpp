@@ -1,5 +1,6 @@
 #include "beams/ray_mesh/ray_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "beams/ray_mesh/refinement.h"
@@ -38,11 +39,13 @@ void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSetting
   mesh.beams.clear();
   mesh.paths.clear();
   mesh.stats = {};
-  const std::vector<LightGroup> groups = lightGroups(scene, rays, settings);
-  for (const LightGroup& group : groups) {
+  MediaTable media(rays);
+  const std::vector<CasterLight> lights = lightOntoCasters(scene, rays, media);
+  const auto groups = lightGroups(scene, lights, settings.mostBytes);
+  for (const std::span<const CasterLight> group : groups) {
     RayMeshSettings own = settings;
-    own.mostBeams = uint64_t(double(settings.mostBeams) * group.share) + 1;
-    LightSheets sheets(scene, rays, own, group, memory);
+    own.mostBeams = std::max<uint64_t>(settings.mostBeams * group.size() / lights.size(), 1);
+    LightSheets sheets(scene, rays, own, group, media, memory);
     sheets.tree.nodes = std::move(nodes);
     sheets.tree.nodes.clear();
     std::vector<Sheet>& landed = memory.landed;

@@ -22,9 +22,9 @@ struct RayMeshSettings {
   // m: no receiver's point shows more; and m for each from an eye there, up to the most.
   float detail = 0.01f;
   float mostDetail = 1e30f;
-  float detailsOfPoint = 1;  // across a receiver's point, over which light chosen by lot is evened out
   float detailPerMeter = 0;
   vec3 eye{0};
+  float detailsOfPoint = 1;  // across a receiver's point, over which light chosen by lot is evened out
   // m2 over which the mean of the light is taken; 0: where nine tenths of it land
   float area = 0;
   // Of a plane target, where light is wanted, in its texels.
@@ -79,7 +79,7 @@ struct RayMesh {
   std::vector<BeamPaths> paths;  // of the beams
   std::vector<LandedBeam> beams;
   RayMeshStats stats;
-  std::shared_ptr<SheetMemory> memory;  // to be used again
+  std::shared_ptr<SheetMemory> memory;  // to be used again; copies share it
 };
 
 // The paths of the casters' own triangles already take more than settings.mostBytes.

@@ -9,9 +9,9 @@
 
 namespace nephroid {
 
-// A beam is added along its sides alone. To the left of each texel that a side passes stands by how much the
-// light of that texel differs from its left neighbor's; sums along the rows, made once for all beams, are the
-// light. (Signed area accumulation, as in rasterizers of fonts.)
+// A beam is added along its sides alone: each texel that a side passes keeps by how much its light differs
+// from that of its left neighbor. Sums along the rows, made once for all beams, are the light. (Signed area
+// accumulation, as in rasterizers of fonts.)
 class TileDeposit {
  public:
   // Empties a tile of `size` texels. Memory is used again.
