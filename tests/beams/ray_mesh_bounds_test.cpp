@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "support/ball_over_floor.h"
 #include "support/counted_answers.h"
@@ -110,6 +111,19 @@ TEST(RayMeshBounds, ALightThatMovesChangesThePictureAsItShould) {
     fineBefore = fineNow;
   }
   EXPECT_LT(std::sqrt(changes / fineChanges), 1.1);
+}
+
+// Light that is reflected once more is faint, but not so faint that chance may leave specks in it.
+TEST(RayMeshBounds, ALightWithinABallLeavesNoSpecks) {
+  const Scene scene = ballOverFloor(0.6f, {0.1f, 0.75f, 0.05f});
+  RayMeshSettings fine = settingsOfPicture();
+  fine.error = 0.002f;
+  fine.mostBeams = 400'000;
+  const std::vector<double> lux = floorLux(tracedFor(scene, settingsOfPicture())),
+                            fineLux = floorLux(tracedFor(scene, fine));
+  const double mean = std::accumulate(fineLux.begin(), fineLux.end(), 0.0) / double(fineLux.size());
+  const double error = std::sqrt(squaresBetween(lux, fineLux) / double(lux.size())) / mean;
+  EXPECT_LT(error, settingsOfPicture().error + fine.error);
 }
 
 Scene ballOf(uint32_t vertices) {

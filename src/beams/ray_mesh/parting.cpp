@@ -13,6 +13,8 @@ constexpr uint8_t kMostCuts = 7;  // of a sheet, before it is parted along strai
 // Of the incident flux, times the error: sheets that carry more are cut before they are parted along straight
 // lines; and those that carry less are given to their corners.
 constexpr float kHeavy = 1e-2f, kLight = 3e-4f;
+// Beams that a sheet of a caster's own triangle becomes, about.
+constexpr float kBeamsOfFirst = 4;
 
 struct SideKey {
   uint64_t corners, path;
@@ -56,10 +58,13 @@ struct LightSheets::SideCut {
   float middle() const { return 0.5f * (place[0] + place[1]); }
 };
 
-// lm; more after many boundaries, past which light is spread out.
+// lm. Of casters of so many triangles that the bound on beams will be met, no less than what a beam then has
+// in the mean; and more after many boundaries, past which light is spread out.
 float LightSheets::lightestParted(const Sheet& sheet) const {
+  const float most = float(settings_.mostBeams);
+  const float ofBeam = std::min(1.0f, kBeamsOfFirst * float(firstSheets_) / most) / most;
   const int spread = std::clamp(int(sheet.generation) - 2, 0, 4);
-  return leastFlux(kLight, 1) * float(1 << (2 * spread));
+  return std::max(kLight * settings_.error, ofBeam) * float(stats.incidentFlux) * float(1 << (2 * spread));
 }
 
 void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {

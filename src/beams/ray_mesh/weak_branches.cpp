@@ -10,11 +10,8 @@ namespace {
 // A branch that carries no more of the light that fed it is left out, as far as the error allows.
 constexpr float kWeakBranch = 0.02f;
 constexpr double kLeftOut = 0.07;  // of the error
-// Of the error: less than this is not followed sheet by sheet.
+// Of the incident flux, times the error: less than this is not followed sheet by sheet.
 constexpr float kLeastCarried = 2e-4f;
-constexpr float kBoundedCarried = 0.2f;  // of a beam, likewise
-// Beams that a sheet of a caster's own triangle becomes, about.
-constexpr float kBeamsOfFirst = 4;
 
 // 0 to 1, at random, the same for the same numbers.
 float chance(uint32_t a, uint32_t b) {
@@ -25,14 +22,6 @@ float chance(uint32_t a, uint32_t b) {
 }
 
 }  // namespace
-
-// lm: the part of the incident flux that is `ofError` of the error. Of casters of so many triangles that the
-// bound on beams will be met, no less than `ofBeam` of what a beam then has in the mean.
-float LightSheets::leastFlux(float ofError, float ofBeam) const {
-  const float most = float(settings_.mostBeams);
-  const float bounded = ofBeam * std::min(1.0f, kBeamsOfFirst * float(firstSheets_) / most) / most;
-  return std::max(ofError * settings_.error, bounded) * float(stats.incidentFlux);
-}
 
 // Leaves branches out that carry little of the light that fed them, the weakest first, as far as the error
 // allows; and those that carry nothing.
@@ -68,7 +57,7 @@ void LightSheets::prune(std::vector<Sheet>& sheets) {
 // sheets that carry little some are taken out by lot, with their light given to the others: in the mean
 // nothing is missing, and long ways of trapped light cost little.
 void LightSheets::chooseAmongWeak(std::vector<Sheet>& children) {
-  const float least = leastFlux(kLeastCarried, kBoundedCarried);
+  const float least = kLeastCarried * settings_.error * float(stats.incidentFlux);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < children.size(); ++i) {
     Sheet child = children[i];

@@ -48,7 +48,7 @@ std::string shortfallOf(const RayMesh& mesh, const Accuracy& accuracy, bool isPi
   constexpr double kDoubt = 2;
   const bool isMet = told.error <= (told.bound == RayMeshBound::none ? kDoubt : 1) * double(accuracy.error);
   if (isMet) return {};
-  std::string cause = "light that many triangles share out is chosen by lot";
+  std::string cause = "weak reflections are chosen at random (a smaller --error keeps more of them)";
   if (told.bound == RayMeshBound::bytes)
     cause = "--memory " + std::to_string(accuracy.memory) + " leaves no room for more paths";
   if (told.bound == RayMeshBound::beams)
