@@ -22,7 +22,7 @@ Mesh papersBall() {
 // to boundary.
 std::vector<Ray> raysOfTable(const Mesh& mesh, const RayScene& scene) {
   std::vector<Ray> rays;
-  const float margin = scene.selfIntersectionDistance();
+  const float margin = 10 * scene.rounding(0);
   const TableKey key = tableKey(mesh, vec3(kIor));
   for (uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
     for (uint32_t i = 0; i < key.directions(); ++i) {

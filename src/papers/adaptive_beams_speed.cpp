@@ -70,10 +70,12 @@ std::vector<Ray> raysOfPicture(const Scene& scene, const RayScene& rayScene) {
   traceRayMesh(scene, rayScene, settingsOfPicture(scene, RenderSettings{}.size, settingsOf("adaptive-beams")),
                silent, mesh);
   std::vector<Ray> rays;
-  for (const PathNode& node : mesh.nodes)
-    if (node.parent != kNone)
-      rays.push_back(
-          {mesh.nodes[node.parent].flatPosition, node.direction, rayScene.selfIntersectionDistance()});
+  for (const PathNode& node : mesh.nodes) {
+    if (node.parent == kNone) continue;
+    const PathNode& from = mesh.nodes[node.parent];
+    rays.push_back({from.flatPosition, node.direction,
+                    rayScene.clearance(from.object, from.geometricNormal, node.direction)});
+  }
   return rays;
 }
 

@@ -12,7 +12,7 @@ struct LitPoint {
   vec3 normal{0};           // unit, shading
   vec3 geometricNormal{0};  // unit, on the side that is lit
   uint32_t medium = kNone;  // object around it
-  float clearance = 0;      // m, the beginning of a shadow ray that is not tested
+  float rounding = 0;       // m, across the surface, that the place may be off
 };
 
 // Illuminance (lux) by one light, with a shadow ray. The air weakens lights on their way, except directional
@@ -20,7 +20,8 @@ struct LitPoint {
 vec3 directIlluminance(const Boundaries& boundaries, const Lights& lights, uint32_t light,
                        const LitPoint& point, Random& random);
 
-// Whether nothing stands between `point` and the light of `illumination`. `clearance`: as in LitPoint.
+// Whether nothing stands between `point` and the light of `illumination`. `clearance`: m, the beginning of
+// the way that is not tested.
 bool isLit(const RayScene& rays, const Illumination& illumination, vec3 point, float clearance);
 
 }  // namespace nephroid

@@ -160,7 +160,7 @@ EmittedPhoton Lights::emitFromAfar(const Share& share, const SkyDistribution::Sa
     const vec3 offset = through - target.center;
     const vec3 aside = offset - dot(offset, light.direction) * light.direction;
     const float radiusSquared = target.radius * target.radius;
-    if (dot(aside, aside) <= radiusSquared * 1.00001f)
+    if (&shares_[i] == &share || dot(aside, aside) <= radiusSquared)
       density += float(shares_[i].probability) / (kPi * radiusSquared);
   }
   const float back = dot(through - sceneCenter_, light.direction) + 1.01f * sceneRadius_;
@@ -182,7 +182,7 @@ EmittedPhoton Lights::emitFromPoint(const Share& share, vec3 origin, vec2 at) co
   for (uint32_t i = firstShare_[share.light]; i < firstShare_[share.light + 1]; ++i) {
     const float width = widthOf(shares_[i].target);
     const vec3 aside = direction - axisOf(shares_[i].target);  // 1 - cosine is half its square
-    if (i == uint32_t(&share - shares_.data()) || width >= 2 || 0.5f * dot(aside, aside) <= width)
+    if (&shares_[i] == &share || width >= 2 || 0.5f * dot(aside, aside) <= width)
       density += float(shares_[i].probability) * coneDensity(width);
   }
   return {origin, direction, lightIntensity(shapes_[share.light], direction) / density, share.light};

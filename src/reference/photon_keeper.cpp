@@ -38,7 +38,7 @@ void PhotonKeeper::segment(const PhotonSegment& segment) {
     if (!seen) continue;
     const vec3 scattered = boundaries.scattering(segment.medium, photon.position) *
                            boundaries.phase(segment.medium, dot(photon.direction, seen->direction));
-    splat(segment, photon.position, photon.flux * scattered, true, *seen);
+    splat(segment, photon.position, photon.flux * scattered, 0, true, *seen);
   }
 }
 
@@ -57,16 +57,17 @@ void PhotonKeeper::landing(const PhotonSegment& segment, const Hit& hit, vec3 fl
   const float cosine = seen ? dot(photon.direction, seen->direction) : 0;
   if (cosine <= 0) return;
   const vec3 reflected = photon.flux * diffuseReflectance(*settings_.scene, hit) * (cosine / kPi);
-  splat(segment, photon.position, reflected, false, *seen);
+  const float clearance =
+      settings_.boundaries->rayScene().clearance(hit.object, photon.direction, seen->direction);
+  splat(segment, photon.position, reflected, clearance, false, *seen);
 }
 
-// `reflected`: cd toward the camera.
-void PhotonKeeper::splat(const PhotonSegment& segment, vec3 place, vec3 reflected, bool isScattered,
-                         const Pinhole::Projection& seen) {
+// `reflected`: cd toward the camera. `clearance`: m, the beginning of the way there that is not tested.
+void PhotonKeeper::splat(const PhotonSegment& segment, vec3 place, vec3 reflected, float clearance,
+                         bool isScattered, const Pinhole::Projection& seen) {
   if (reflected == vec3(0)) return;
   const RayScene& rays = settings_.boundaries->rayScene();
-  const float margin = rays.selfIntersectionDistance();
-  if (rays.occluded({place, seen.direction, isScattered ? 0 : margin, seen.distance})) return;
+  if (rays.occluded({place, seen.direction, clearance, seen.distance})) return;
   vec3 luminance = reflected * (seen.perSteradian / (seen.distance * seen.distance));
   luminance *=
       settings_.boundaries->transmittance(settings_.mediumOfCamera, place, seen.direction, seen.distance);

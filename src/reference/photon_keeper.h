@@ -34,7 +34,7 @@ class PhotonKeeper final : public PhotonVisitor {
   std::vector<Splat> splats;
 
  private:
-  void splat(const PhotonSegment& segment, vec3 place, vec3 reflected, bool isScattered,
+  void splat(const PhotonSegment& segment, vec3 place, vec3 reflected, float clearance, bool isScattered,
              const Pinhole::Projection& seen);
 
   KeeperSettings settings_;

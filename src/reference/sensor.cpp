@@ -39,7 +39,8 @@ class SensorVisitor final : public PhotonVisitor {
     if (approach >= 0) return;
     const double distance = dot(corner_ - origin, normal_) / approach;  // m
     // A meter that lies on a receiver is before it, whatever the rounding.
-    if (distance < 0 || distance > double(segment.length) + (segment.endsOnReceiver ? margin_ : 0.0)) return;
+    const double spare = segment.endsOnReceiver ? margin_ * length(normal_) / -approach : 0.0;
+    if (distance < 0 || distance > double(segment.length) + spare) return;
     const glm::dvec3 place = origin + distance * direction - corner_;
     const double column = dot(place, across_) * resolution_.x;
     const double row = dot(place, along_) * resolution_.y;
@@ -57,11 +58,11 @@ class SensorVisitor final : public PhotonVisitor {
   glm::dvec3 corner_, normal_, across_, along_;
   uvec2 resolution_;
   const std::vector<Band>* bands_;
-  double margin_;  // m
+  double margin_;  // m, across the receiver
 };
 
 float toleranceOf(const RayScene& rays) {
-  return 10 * rays.selfIntersectionDistance();
+  return 2 * rays.largestRounding();
 }
 
 }  // namespace
@@ -136,7 +137,7 @@ vec3 ReferenceSensor::directAt(uvec2 texel, Random& random) const {
     point.position = sensor_.corner + sensor_.u * place.x + sensor_.v * place.y;
     point.normal = point.geometricNormal = sensor_.normal();
     point.medium = medium_;
-    point.clearance = toleranceOf(boundaries_.rayScene());
+    point.rounding = toleranceOf(boundaries_.rayScene());
     for (uint32_t light = 0; light < lights_.count(); ++light)
       sum += directIlluminance(boundaries_, lights_, light, point, random);
   }

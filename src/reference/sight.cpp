@@ -97,7 +97,7 @@ void Sight::lookAtReceiver(const View& view, const Hit& hit, const PassLight& li
       dot(view.ray.direction, hit.geometricNormal) < 0 ? hit.geometricNormal : -hit.geometricNormal;
   point.normal = dot(hit.normal, point.geometricNormal) < 0 ? -hit.normal : hit.normal;
   point.medium = view.path.media.top();
-  point.clearance = boundaries_.rayScene().selfIntersectionDistance();
+  point.rounding = boundaries_.rayScene().rounding(hit.object);
   const vec3 weight = view.weight(light);
   const vec3 reflected = diffuseReflectance(scene_, hit) / kPi;  // 1/sr
   for (uint32_t source = 0; source < lights_.count(); ++source)

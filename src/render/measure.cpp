@@ -17,7 +17,7 @@ constexpr uint32_t kShadowGrid = 4;  // points along a texel's side that look at
 
 vec3 directAt(const Scene& scene, const RayScene& rays, const std::vector<ShapedLight>& lights,
               const std::vector<Emitter>& emitters, vec3 point, vec3 normal) {
-  const float margin = rays.selfIntersectionDistance();
+  const float rounding = 2 * rays.largestRounding();
   vec3 sum(0);
   for (const Emitter& emitter : emitters) {
     const vec3 direction = emitterDirection(emitter, point);
@@ -26,7 +26,7 @@ vec3 directAt(const Scene& scene, const RayScene& rays, const std::vector<Shaped
     const float distance = emitter.type == kEmitterDirectional ? std::numeric_limits<float>::infinity()
                                                                : length(emitter.position - point);
     // A sensor may lie on a surface, so the first part of the way is not looked at.
-    if (!rays.occluded({point, -direction, 10 * margin, distance - margin}))
+    if (!rays.occluded({point, -direction, rounding / std::max(cosine, 0.01f), beforeLamp(distance)}))
       sum += cosine * airTransmittance(scene, emitter, point) *
              illuminance(lights[emitter.light], emitter, point);
   }

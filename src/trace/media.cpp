@@ -41,7 +41,7 @@ MediumStack mediaAround(const RayScene& rays, std::span<const Material* const> m
   Hit hit;
   for (uint32_t boundary = 0; boundary < kMaximumBoundaries && rays.intersect(ray, hit); ++boundary) {
     windings[hit.object] += dot(direction, hit.geometricNormal) > 0 ? 1 : -1;
-    ray.nearDistance = hit.distance + rays.selfIntersectionDistance();
+    ray.nearDistance = hit.distance + rays.clearance(hit.object, hit.geometricNormal, direction);
   }
   MediumStack media;
   for (uint32_t object = 0; object < windings.size(); ++object)

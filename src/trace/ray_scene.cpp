@@ -16,8 +16,15 @@
 namespace nephroid {
 namespace {
 
-constexpr float kSelfIntersectionFraction =
-    1e-5f;  // of the scene's extent: some fifty times float's rounding there
+// Of the largest coordinate: what placing a point, and tracing a ray to it, may round, some ten steps in all.
+constexpr float kRounding = 10 * 0x1p-24f;
+// A ray closer along the surface than this cosine is taken to leave it within a hundred times the rounding.
+constexpr float kGrazingCosine = 0.01f;
+
+float largestCoordinate(vec3 point) {
+  const vec3 size = glm::abs(point);
+  return std::max({size.x, size.y, size.z});
+}
 
 struct alignas(64) RayCounter {
   std::atomic<uint64_t> count{0};
@@ -79,6 +86,7 @@ struct RayScene::Impl {
     std::vector<TracedTriangle> triangles;
     SceneHandle scene;
     float volume;  // m3 in the mesh's own space; infinite where it is open
+    float extent;  // m, its largest coordinate
   };
   struct TracedObject {
     uint32_t mesh;
@@ -98,7 +106,7 @@ struct RayScene::Impl {
   std::vector<TracedObject> objects;
   SceneHandle top;  // instances of the meshes; none for a scene of one mesh in its own space
   std::vector<RTCGeometry> instances;  // owned by `top`
-  float extent = 0;                    // m, largest absolute coordinate
+  std::vector<float> roundings;        // m, of the objects
 
   Impl() {
     if (!device) throw RuntimeFailure("Embree could not make a device");
@@ -121,7 +129,9 @@ struct RayScene::Impl {
     rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene.get());
-    return {&mesh, tracedTriangles(mesh, patches), std::move(scene), volumeOf(mesh)};
+    float extent = 0;
+    for (const vec3& position : mesh.positions) extent = std::max(extent, largestCoordinate(position));
+    return {&mesh, tracedTriangles(mesh, patches), std::move(scene), volumeOf(mesh), extent};
   }
 
   void addMesh(const Mesh& mesh) { meshes.push_back(traced(mesh, smoothPatches(mesh))); }
@@ -137,14 +147,10 @@ struct RayScene::Impl {
 
   RTCScene root() const { return top ? top.get() : meshes[0].scene.get(); }
 
-  void updateExtent() {
-    RTCBounds bounds;
-    rtcGetSceneBounds(root(), &bounds);
-    const vec3 lower(bounds.lower_x, bounds.lower_y, bounds.lower_z);
-    const vec3 upper(bounds.upper_x, bounds.upper_y, bounds.upper_z);
-    const vec3 largest = glm::max(glm::abs(lower), glm::abs(upper));
-    extent = std::max({largest.x, largest.y, largest.z});
-    if (!std::isfinite(extent)) extent = 0;  // nothing is there
+  void addObject(uint32_t mesh, const Placement& placement) {
+    objects.emplace_back(mesh, placement);
+    const float farthest = largestCoordinate(placement.translation) + placement.scale * meshes[mesh].extent;
+    roundings.push_back(kRounding * farthest);
   }
 
   void describe(const RTCRayHit& query, Hit& hit) const {
@@ -181,8 +187,7 @@ struct RayScene::Impl {
 RayScene::RayScene(const Mesh& mesh) : impl_(std::make_unique<Impl>()) {
   checkMesh(mesh, "mesh \"" + mesh.name + "\"");
   impl_->addMesh(mesh);
-  impl_->objects.emplace_back(0, Placement{});
-  impl_->updateExtent();
+  impl_->addObject(0, {});
 }
 
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
@@ -210,16 +215,16 @@ void RayScene::reshape(uint32_t mesh) {
 
 void RayScene::place(const Scene& scene) {
   impl_->objects.clear();
+  impl_->roundings.clear();
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    impl_->objects.emplace_back(object.mesh, object.placement);
+    impl_->addObject(object.mesh, object.placement);
     const mat3 linear = glm::mat3_cast(object.placement.rotation) * object.placement.scale;
     const glm::mat4x3 transform(linear[0], linear[1], linear[2], object.placement.translation);
     rtcSetGeometryTransform(impl_->instances[i], 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &transform[0].x);
     rtcCommitGeometry(impl_->instances[i]);
   }
   rtcCommitScene(impl_->top.get());
-  impl_->updateExtent();
 }
 
 bool RayScene::intersect(const Ray& ray, Hit& hit) const {
@@ -302,8 +307,16 @@ void RayScene::occluded(std::span<const Ray> rays, std::span<uint8_t> isOccluded
   }
 }
 
-float RayScene::selfIntersectionDistance() const {
-  return kSelfIntersectionFraction * impl_->extent;
+float RayScene::rounding(uint32_t object) const {
+  return impl_->roundings[object];
+}
+
+float RayScene::largestRounding() const {
+  return impl_->roundings.empty() ? 0 : *std::max_element(impl_->roundings.begin(), impl_->roundings.end());
+}
+
+float RayScene::clearance(uint32_t object, vec3 geometricNormal, vec3 direction) const {
+  return rounding(object) / std::max(std::abs(dot(geometricNormal, direction)), kGrazingCosine);
 }
 
 uint32_t RayScene::patchOf(uint32_t mesh, uint32_t triangle) const {
@@ -320,9 +333,11 @@ float RayScene::enclosedVolume(uint32_t object) const {
 }
 
 Ray RayScene::leaving(const Hit& hit, vec3 direction) const {
-  const vec3 start =
-      hit.position + alongRayToPlane(direction, hit.flatPosition - hit.position, hit.geometricNormal);
-  return {start, direction, selfIntersectionDistance()};
+  const float near = clearance(hit.object, hit.geometricNormal, direction);
+  const vec3 step = alongRayToPlane(direction, hit.flatPosition - hit.position, hit.geometricNormal);
+  if (step == vec3(0)) return {hit.flatPosition, direction, near};
+  // Beyond the triangle's edge its plane is outside the mesh, by less than this step.
+  return {hit.position + step, direction, near + length(step)};
 }
 
 Ray RayScene::leavingTriangle(const Hit& hit, vec3 direction) const {

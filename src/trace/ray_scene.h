@@ -18,6 +18,11 @@ struct Ray {
   float farDistance = std::numeric_limits<float>::infinity();
 };
 
+// m along a ray toward a lamp at `distance`, up to where something may stand before it.
+inline float beforeLamp(float distance) {
+  return distance * (1 - 0x1p-20f);
+}
+
 struct Hit {
   float distance = 0;       // m
   uint32_t object = kNone;  // index into Scene::objects, or 0 for a scene of one mesh
@@ -61,9 +66,13 @@ class RayScene {
   void occluded(vec3 origin, std::span<const vec3> directions, float nearDistance,
                 std::span<uint8_t> isOccluded) const;
 
-  // The distance (m) from a surface at which rays begin, so that they do not meet this surface again. It
-  // grows with the size of the scene.
-  float selfIntersectionDistance() const;
+  // The distance (m) across an object's surface that places on it may be off, from the floats that its
+  // coordinates and its placement are kept in.
+  float rounding(uint32_t object) const;
+  // The largest of all objects.
+  float largestRounding() const;
+  // The distance (m) along a ray that leaves an object's surface up to which it may meet this surface again.
+  float clearance(uint32_t object, vec3 geometricNormal, vec3 direction) const;
 
   // The number of the smooth surface of a triangle. `mesh`: index in the scene.
   uint32_t patchOf(uint32_t mesh, uint32_t triangle) const;

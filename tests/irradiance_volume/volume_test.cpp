@@ -64,7 +64,7 @@ class IrradianceVolumeAs : public testing::TestWithParam<uint32_t> {
 // Through discs behind a glass ball, at, before and beyond its focus (1.5 radii from the center), straight
 // and oblique.
 TEST_P(IrradianceVolumeAs, KeepsTheFluxOfABall) {
-  IrradianceVolume volume(ball, glass(), settings(90, 30), {});
+  IrradianceVolume volume(ball, glass(), settings(120, 30), {});
   const vec3 light = normalize(vec3(0.3f, -1, 0.2f));
   for (const float distance : {0.6f, 0.75f, 0.9f, 1.1f}) {
     const double flux = ballLensRings(0.5, double(distance), 1.5, double(kDisc), 1)[0];
@@ -80,7 +80,7 @@ TEST_P(IrradianceVolumeAs, KeepsTheFluxOfABall) {
 // bounding sphere, where cells that straddle the edge of the disc count.
 TEST_P(IrradianceVolumeAs, KeepsTheFluxOfARing) {
   const Mesh ring = makeRing(0.5f, 0.25f, 0.02f, {.vertices = 6000});
-  IrradianceVolume volume(ring, silver_, settings(500, 60), {});
+  IrradianceVolume volume(ring, silver_, settings(900, 60), {});
   // One of the sampled directions, so that nothing is interpolated.
   const vec3 light = volume.lightSamples().directions()[1];
   const vec3 down(0, light.y < 0 ? -1 : 1, 0);

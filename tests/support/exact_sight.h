@@ -47,7 +47,7 @@ class ExactSight {
 
   vec3 along(vec3 origin, vec3 direction) const {
     Hit hit;
-    if (!rays.intersect({origin, direction, 10 * rays.selfIntersectionDistance()}, hit) ||
+    if (!rays.intersect({origin, direction, 10 * rays.largestRounding()}, hit) ||
         scene.isCaster(scene.objects[hit.object]))
       return scene.environment.background;
     return luminanceOf(hit);

@@ -86,7 +86,6 @@ void LightSheets::settleCorners() {
   const std::size_t count = pending_.size();
   const uint32_t firstCorner = uint32_t(firstOfCorner_.size() - count);
   std::vector<PathNode> begun(count);
-  const float margin = rays_.selfIntersectionDistance();
   oneapi::tbb::parallel_for(IndexRange(0, count, kGrain), [&](const IndexRange& range) {
     std::vector<Ray> toLight;
     std::vector<uint8_t> isDark(range.size());
@@ -99,7 +98,9 @@ void LightSheets::settleCorners() {
       begun[i] = firstNode(light, entry, firstCorner + uint32_t(i));
       const float far = light.emitter.type == kEmitterDirectional ? std::numeric_limits<float>::infinity()
                                                                   : begun[i].length;
-      toLight.push_back({entry.flatPosition, -begun[i].direction, margin, far - margin});
+      const vec3 direction = -begun[i].direction;
+      const float near = rays_.clearance(light.object, entry.geometricNormal, direction);
+      toLight.push_back({entry.flatPosition, direction, near, beforeLamp(far)});
     }
     rays_.occluded(toLight, isDark);
     for (std::size_t i = range.begin(); i < range.end(); ++i)

@@ -159,11 +159,13 @@ void PathTree::finish(PathNode& node, const Ray& ray, const Hit& hit) const {
   } else if (target_.isPlane) {
     vec2 texel;
     float distance;
-    const vec3 start = nodes[node.parent].position;
-    if (!meetPlane(start, ray.direction, target_.plane, texel, distance)) return;
-    if (node.length < distance * (1 - 1e-3f) - 1e-4f) return;
-    node.position = start + distance * ray.direction;
-    node.transmittance *= leftAfter(node.medium, start, ray.direction, distance);
+    if (!meetPlane(ray.origin, ray.direction, target_.plane, texel, distance)) return;
+    // A meter that lies on a receiver is before it, whatever the rounding.
+    const float spare =
+        2 * rays_.largestRounding() / std::max(dot(ray.direction, target_.plane.normal), 1e-3f);
+    if (node.length < distance - spare) return;
+    node.position = ray.origin + distance * ray.direction;
+    node.transmittance *= leftAfter(node.medium, ray.origin, ray.direction, distance);
     node.object = 0;
     node.state = PathState::arrived;
   } else if (hit.object != kNone) {
@@ -186,6 +188,7 @@ void PathTree::trace(std::span<const uint32_t> bent) {
         const PathNode& node = nodes[bent[first + i]];
         const PathNode& from = nodes[node.parent];
         Hit start;
+        start.object = from.object;
         start.position = from.position;
         start.flatPosition = from.flatPosition;
         start.geometricNormal = from.geometricNormal;

@@ -309,12 +309,12 @@ void findReceiver(const Scene& scene, const RayScene& rays, SightVertex& vertex)
 }
 
 // Where what is reflected at a vertex comes from.
-void findReflected(const Scene& scene, const RayScene& rays, vec3 eye, SightVertex& vertex) {
+void findReflected(const Scene& scene, const RayScene& rays, uint32_t object, vec3 eye, SightVertex& vertex) {
   const vec3 incident = normalize(vertex.position - eye);
   const vec3 normal = dot(incident, vertex.normal) < 0 ? vertex.normal : -vertex.normal;
+  const vec3 direction = reflectDirection(incident, normal);
   Hit hit;
-  if (rays.intersect({vertex.position, reflectDirection(incident, normal), rays.selfIntersectionDistance()},
-                     hit) &&
+  if (rays.intersect({vertex.position, direction, rays.clearance(object, normal, direction)}, hit) &&
       !scene.isCaster(scene.objects[hit.object]))
     vertex.reflectedReach = hit.distance;
 }
@@ -350,7 +350,7 @@ SightMesh sightMesh(const Scene& scene, const TransportSource& source, const Ray
   const bool reflects = scene.materialOf(scene.objects[query.object]).type == MaterialType::dielectric;
   forUsedVertices(mesh, [&](SightVertex& vertex) {
     findReceiver(scene, rays, vertex);
-    if (reflects) findReflected(scene, rays, query.emitter.position, vertex);
+    if (reflects) findReflected(scene, rays, query.object, query.emitter.position, vertex);
   });
   return mesh;
 }

@@ -23,7 +23,7 @@ TransportTable buildTable(const Mesh& mesh, vec3 ior, const TableSettings& setti
   const TableKey key = tableKey(mesh, ior, settings);
   const RayScene rayScene(mesh);
   const std::vector<uint32_t> patches = vertexPatches(mesh, rayScene);
-  const float margin = rayScene.selfIntersectionDistance();
+  const float margin = 10 * rayScene.rounding(0);
   const auto trace = [&](uint32_t vertex, float bandIor, std::span<const vec3> directions,
                          std::span<OutgoingRay> rays) {
     Material clear;

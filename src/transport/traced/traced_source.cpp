@@ -31,8 +31,9 @@ bool TracedSource::isLit(const TransportQuery& query, const SurfacePoint& point,
   const float farDistance = query.emitter.type == kEmitterDirectional
                                 ? std::numeric_limits<float>::infinity()
                                 : glm::length(query.emitter.position - point.position);
-  const float margin = follower_.rayScene().selfIntersectionDistance();
-  return !follower_.rayScene().occluded({point.flatPosition, -direction, margin, farDistance - margin});
+  const RayScene& rays = follower_.rayScene();
+  const float near = rays.clearance(query.object, point.geometricNormal, direction);
+  return !rays.occluded({point.flatPosition, -direction, near, beforeLamp(farDistance)});
 }
 
 OutgoingRay TracedSource::rayAt(const TransportQuery& query, const SurfacePoint& point) const {
@@ -72,6 +73,7 @@ bool TracedSource::isVertexLit(const TransportQuery& query, uint32_t vertex) con
   const vec3 position = object.placement.point(scene_.meshOf(object).positions[vertex]);
   SurfacePoint point;
   point.position = point.flatPosition = position;
+  point.geometricNormal = object.placement.direction(scene_.meshOf(object).normals[vertex]);
   return isLit(query, point, emitterDirection(query.emitter, position));
 }
 
@@ -100,11 +102,11 @@ bool TracedSource::mayBeShaded(const TransportQuery& query) const {
 void TracedSource::goOn(const TransportQuery& query, OutgoingRay& ray) const {
   const RayScene& rays = follower_.rayScene();
   Hit hit;
-  Ray next{ray.position, ray.direction, rays.selfIntersectionDistance()};
+  Ray next{ray.position, ray.direction, rays.rounding(query.object)};
   // What a source rounded may lie inside of the caster that it left.
   do {
     if (!rays.intersect(next, hit)) return;
-    next.nearDistance = hit.distance + rays.selfIntersectionDistance();
+    next.nearDistance = hit.distance + rays.clearance(hit.object, hit.geometricNormal, ray.direction);
   } while (hit.object == query.object);
   if (!scene_.isCaster(scene_.objects[hit.object])) {
     ray.reach = hit.distance;
