@@ -54,16 +54,9 @@ bool Boundaries::send(const Hit& hit, const Band& band, Carried carried, Choice 
 
 bool Boundaries::crossDielectric(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
                                  Path& path) const {
-  const bool entering = dot(path.direction, hit.geometricNormal) < 0;
-  const float volume = rays_.enclosedVolume(hit.object);
-  // What leaves an object it never entered, through an open mesh, was inside it all the same.
-  if (!entering && !path.media.contains(hit.object)) path.media.enter(hit.object, volume);
-  MediumStack beyond = path.media;
-  if (entering) {
-    beyond.enter(hit.object, volume);
-  } else {
-    beyond.leave(hit.object);
-  }
+  const MediaSides sides = sidesOf(rays_, path.media, hit, path.direction);
+  path.media = sides.before;
+  const MediumStack& beyond = sides.beyond;
   const uint32_t here = path.media.top();
   const uint32_t there = beyond.top();
   if (here == there) {  // inside another object, which fills this place: nothing is reflected

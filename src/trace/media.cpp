@@ -33,6 +33,32 @@ void MediumStack::leave(uint32_t object) {
   --size;
 }
 
+MediaSides sidesOf(const RayScene& rays, const MediumStack& media, uint32_t object, bool entering,
+                   std::span<const Touching> touching) {
+  MediaSides sides{media, media};
+  const auto leave = [&](uint32_t left) {
+    if (!sides.before.contains(left)) {
+      sides.before.enter(left, rays.enclosedVolume(left));
+    } else {
+      sides.beyond.leave(left);
+    }
+  };
+  const auto cross = [&](uint32_t crossed, bool isEntered) {
+    if (isEntered) {
+      sides.beyond.enter(crossed, rays.enclosedVolume(crossed));
+    } else {
+      leave(crossed);
+    }
+  };
+  cross(object, entering);
+  for (const Touching& other : touching) cross(other.object, entering != other.isTurned);
+  return sides;
+}
+
+MediaSides sidesOf(const RayScene& rays, const MediumStack& media, const Hit& hit, vec3 direction) {
+  return sidesOf(rays, media, hit.object, dot(direction, hit.geometricNormal) < 0, hit.touched());
+}
+
 MediumStack mediaAround(const RayScene& rays, std::span<const Material* const> materials, vec3 point) {
   const vec3 direction =
       glm::normalize(vec3(0.3817f, 0.8531f, 0.3551f));  // along no axis or edge likely to be met
@@ -40,7 +66,9 @@ MediumStack mediaAround(const RayScene& rays, std::span<const Material* const> m
   Ray ray{point, direction, 0};
   Hit hit;
   for (uint32_t boundary = 0; boundary < kMaximumBoundaries && rays.intersect(ray, hit); ++boundary) {
-    windings[hit.object] += dot(direction, hit.geometricNormal) > 0 ? 1 : -1;
+    const int winding = dot(direction, hit.geometricNormal) > 0 ? 1 : -1;
+    windings[hit.object] += winding;
+    for (const Touching& other : hit.touched()) windings[other.object] += other.isTurned ? -winding : winding;
     ray.nearDistance = hit.distance + rays.clearance(hit.object, hit.geometricNormal, direction);
   }
   MediumStack media;

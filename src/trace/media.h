@@ -23,6 +23,17 @@ struct MediumStack {
   void leave(uint32_t object);
 };
 
+// The media on both sides of a boundary.
+struct MediaSides {
+  MediumStack before, beyond;
+};
+
+// Where a path inside `media` meets a dielectric surface, and those that lie in the same place, along
+// `direction`. What is left that was never entered, through an open mesh, was around the path all the same.
+MediaSides sidesOf(const RayScene& rays, const MediumStack& media, uint32_t object, bool entering,
+                   std::span<const Touching> touching);
+MediaSides sidesOf(const RayScene& rays, const MediumStack& media, const Hit& hit, vec3 direction);
+
 // Finds the closed transparent objects around a point. `materials`: one for each object.
 MediumStack mediaAround(const RayScene& rays, std::span<const Material* const> materials, vec3 point);
 

@@ -3,10 +3,12 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
+#include <algorithm>
 #include <atomic>
 
 #include "core/error.h"
 #include "core/index_range.h"
+#include "geometry/bounds.h"
 #include "geometry/curved_triangle.h"
 #include "geometry/mesh_checks.h"
 #include "scene/checks.h"
@@ -20,6 +22,10 @@ namespace {
 constexpr float kRounding = 10 * 0x1p-24f;
 // A ray closer along the surface than this cosine is taken to leave it within a hundred times the rounding.
 constexpr float kGrazingCosine = 0.01f;
+
+uint8_t rankOf(const Material& material) {
+  return material.type == MaterialType::diffuse ? 2 : material.type == MaterialType::mirror ? 1 : 0;
+}
 
 float largestCoordinate(vec3 point) {
   const vec3 size = glm::abs(point);
@@ -107,6 +113,10 @@ struct RayScene::Impl {
   SceneHandle top;  // instances of the meshes; none for a scene of one mesh in its own space
   std::vector<RTCGeometry> instances;  // owned by `top`
   std::vector<float> roundings;        // m, of the objects
+  std::vector<Box> boxes;              // of the meshes
+  std::vector<uint8_t> ranks;          // of the objects: which of those that lie in the same place counts
+  std::vector<Placement> placements;   // that `contacts` were found for
+  Contacts contacts;
 
   Impl() {
     if (!device) throw RuntimeFailure("Embree could not make a device");
@@ -134,7 +144,10 @@ struct RayScene::Impl {
     return {&mesh, tracedTriangles(mesh, patches), std::move(scene), volumeOf(mesh), extent};
   }
 
-  void addMesh(const Mesh& mesh) { meshes.push_back(traced(mesh, smoothPatches(mesh))); }
+  void addMesh(const Mesh& mesh) {
+    meshes.push_back(traced(mesh, smoothPatches(mesh)));
+    boxes.push_back(boundingBox(mesh));
+  }
 
   void reshape(uint32_t index) {
     std::vector<uint32_t> patches;
@@ -143,6 +156,17 @@ struct RayScene::Impl {
     for (std::size_t i = 0; i < instances.size(); ++i)
       if (objects[i].mesh == index) rtcSetGeometryInstancedScene(instances[i], now.scene.get());
     meshes[index] = std::move(now);
+    boxes[index] = boundingBox(*meshes[index].mesh);
+  }
+
+  void updateContacts(const Scene& scene) {
+    ranks.clear();
+    for (const Object& object : scene.objects) ranks.push_back(rankOf(scene.materialOf(object)));
+    std::vector<Placement> now;
+    for (const Object& object : scene.objects) now.push_back(object.placement);
+    if (now == placements) return;
+    contacts = findContacts(scene, boxes, roundings);
+    placements = std::move(now);
   }
 
   RTCScene root() const { return top ? top.get() : meshes[0].scene.get(); }
@@ -153,7 +177,52 @@ struct RayScene::Impl {
     roundings.push_back(kRounding * farthest);
   }
 
+  // Whether the surface of `object` lies where `hit` is; `face` then describes it.
+  bool liesAt(uint32_t index, const Hit& hit, vec3 direction, Hit& face) const {
+    const TracedObject& object = objects[index];
+    const float across = touchingDistance(roundings[hit.object], roundings[index]);
+    const float along = across / std::max(std::abs(dot(direction, hit.geometricNormal)), kGrazingCosine);
+    const mat3 toObject = glm::transpose(object.rotation);
+    const vec3 start = hit.flatPosition - along * direction;
+    RTCRayHit query = embreeQuery({toObject * (start - object.translation) / object.scale,
+                                   toObject * direction, 0, 2 * along / object.scale});
+    embreeIntersect(meshes[object.mesh].scene.get(), query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    query.ray.dir_x = direction.x;
+    query.ray.dir_y = direction.y;
+    query.ray.dir_z = direction.z;
+    query.ray.tfar = hit.distance;
+    query.hit.instID[0] = index;
+    describe(query, face);
+    return std::abs(dot(face.geometricNormal, hit.geometricNormal)) > 0.9f;
+  }
+
+  void addTouching(vec3 direction, Hit& hit) const {
+    std::array<Hit, kMostTouching + 1> faces{hit};
+    std::size_t count = 1;
+    for (const uint32_t other : contacts.around(hit.object, hit.triangle))
+      if (count < faces.size() && liesAt(other, hit, direction, faces[count])) ++count;
+    if (count == 1) return;
+    const auto isBefore = [&](const Hit& a, const Hit& b) {
+      return ranks[a.object] != ranks[b.object] ? ranks[a.object] > ranks[b.object] : a.object < b.object;
+    };
+    for (std::size_t sorted = 1; sorted < count; ++sorted)
+      for (std::size_t i = sorted; i > 0 && isBefore(faces[i], faces[i - 1]); --i)
+        std::swap(faces[i], faces[i - 1]);
+    hit = faces[0];
+    for (std::size_t i = 1; i < count; ++i)
+      hit.touching[i - 1] = {faces[i].object, dot(faces[i].geometricNormal, hit.geometricNormal) < 0};
+    hit.touchingCount = uint32_t(count - 1);
+  }
+
+  void describeWithTouching(const RTCRayHit& query, Hit& hit) const {
+    describe(query, hit);
+    if (contacts.areNone()) return;
+    addTouching({query.ray.dir_x, query.ray.dir_y, query.ray.dir_z}, hit);
+  }
+
   void describe(const RTCRayHit& query, Hit& hit) const {
+    hit.touchingCount = 0;
     hit.object = top ? query.hit.instID[0] : 0;
     const TracedObject& object = objects[hit.object];
     const TracedMesh& traced = meshes[object.mesh];
@@ -225,6 +294,7 @@ void RayScene::place(const Scene& scene) {
     rtcCommitGeometry(impl_->instances[i]);
   }
   rtcCommitScene(impl_->top.get());
+  impl_->updateContacts(scene);
 }
 
 bool RayScene::intersect(const Ray& ray, Hit& hit) const {
@@ -232,7 +302,7 @@ bool RayScene::intersect(const Ray& ray, Hit& hit) const {
   RTCRayHit query = embreeQuery(ray);
   embreeIntersect(impl_->root(), query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  impl_->describe(query, hit);
+  impl_->describeWithTouching(query, hit);
   return true;
 }
 
@@ -286,7 +356,7 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
       query.hit.v = packet.hit.v[i];
       query.hit.primID = packet.hit.primID[i];
       query.hit.instID[0] = packet.hit.instID[0][i];
-      impl_->describe(query, hits[first + i]);
+      impl_->describeWithTouching(query, hits[first + i]);
     }
   }
 }
@@ -317,6 +387,14 @@ float RayScene::largestRounding() const {
 
 float RayScene::clearance(uint32_t object, vec3 geometricNormal, vec3 direction) const {
   return rounding(object) / std::max(std::abs(dot(geometricNormal, direction)), kGrazingCosine);
+}
+
+void RayScene::addTouching(vec3 direction, Hit& hit) const {
+  if (!impl_->contacts.areNone()) impl_->addTouching(direction, hit);
+}
+
+const Contacts& RayScene::contacts() const {
+  return impl_->contacts;
 }
 
 uint32_t RayScene::patchOf(uint32_t mesh, uint32_t triangle) const {

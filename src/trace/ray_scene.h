@@ -1,6 +1,7 @@
 // Traces rays with Embree, which only ray_scene.cpp calls, by embree_calls.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -8,6 +9,7 @@
 
 #include "core/shared_language.h"
 #include "scene/scene.h"
+#include "trace/contacts.h"
 
 namespace nephroid {
 
@@ -23,6 +25,15 @@ inline float beforeLamp(float distance) {
   return distance * (1 - 0x1p-20f);
 }
 
+// The surface of another object in the same place as one that a ray hit.
+struct Touching {
+  uint32_t object = kNone;
+  bool isTurned = false;  // it faces the other way
+};
+inline constexpr std::size_t kMostTouching = 3;
+
+// Of surfaces that lie in the same place, the one that counts: a diffuse one before a mirror, a mirror before
+// glass, and then the first of the objects.
 struct Hit {
   float distance = 0;       // m
   uint32_t object = kNone;  // index into Scene::objects, or 0 for a scene of one mesh
@@ -33,6 +44,9 @@ struct Hit {
   vec3 flatPosition{0};     // on the triangle
   vec3 normal{0};           // unit, interpolated from the vertices
   vec3 geometricNormal{0};  // unit, outward by winding
+  std::array<Touching, kMostTouching> touching{};
+  uint32_t touchingCount = 0;
+  std::span<const Touching> touched() const { return {touching.data(), touchingCount}; }
 };
 
 // The geometry of a scene for rays. Several threads may trace at the same time, but not during `place` and
@@ -73,6 +87,11 @@ class RayScene {
   float largestRounding() const;
   // The distance (m) along a ray that leaves an object's surface up to which it may meet this surface again.
   float clearance(uint32_t object, vec3 geometricNormal, vec3 direction) const;
+
+  // What lies where an object's surface is touched by others; intersect has done so for its hits. `hit` has
+  // its object, triangle, place and normals, and may become that of another object.
+  void addTouching(vec3 direction, Hit& hit) const;
+  const Contacts& contacts() const;
 
   // The number of the smooth surface of a triangle. `mesh`: index in the scene.
   uint32_t patchOf(uint32_t mesh, uint32_t triangle) const;

@@ -34,18 +34,13 @@ struct Walk {
 
 // Light that meets a dielectric boundary goes on along `walk`. False: it is lost.
 bool crossDielectric(const std::vector<const Material*>& materials, const FollowSettings& settings,
-                     const Hit& hit, float volume, vec3 normal, bool entering, Walk& walk) {
+                     const Hit& hit, const MediaSides& sides, vec3 normal, Walk& walk) {
   OutgoingRay& ray = walk.ray;
   const uint32_t object = hit.object;
   const uint32_t patch = hit.patch;
-  // Light that leaves what it never entered, through an open mesh, was inside it all the same.
-  if (!entering && !walk.media.contains(object)) walk.media.enter(object, volume);
-  MediumStack beyond = walk.media;
-  if (entering) {
-    beyond.enter(object, volume);
-  } else {
-    beyond.leave(object);
-  }
+  const bool entering = dot(ray.direction, hit.geometricNormal) < 0;
+  walk.media = sides.before;
+  const MediumStack& beyond = sides.beyond;
   if (walk.media.top() == beyond.top()) {  // inside another object, which fills this place
     walk.media = beyond;
     return true;
@@ -108,7 +103,6 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
   hit.geometricNormal = entry.geometricNormal;
   for (uint32_t crossing = 0; crossing < kMaximumCrossings; ++crossing) {
     const Material& material = *materials_[hit.object];
-    const bool entering = dot(ray.direction, hit.geometricNormal) < 0;
     const vec3 normal = facingNormal(ray.direction, hit.normal, hit.geometricNormal);
     ray.position = hit.position;
     if (material.type == MaterialType::mirror) {
@@ -117,8 +111,8 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
       ray.signature = extendSignature(ray.signature, hit.object, hit.patch, Event::reflected);
     } else if (material.thinWalled) {
       crossThinWall(material, settings, hit.object, hit.patch, normal, walk);
-    } else if (!crossDielectric(materials_, settings, hit, rays_.enclosedVolume(hit.object), normal, entering,
-                                walk)) {
+    } else if (!crossDielectric(materials_, settings, hit, sidesOf(rays_, walk.media, hit, ray.direction),
+                                normal, walk)) {
       ray.flags |= kRayLost;
       return ray;
     }

@@ -104,6 +104,7 @@ TEST(RayMesh, FlatFacesLeaveAnEvenLight) {
   if (!std::filesystem::exists(sharedData() / "cases")) GTEST_SKIP() << "no cases";
   EXPECT_NEAR(mean("sandwich_overlap.toml"), 9.150, 0.002);
   EXPECT_NEAR(mean("sandwich_gap.toml"), 8.156, 0.002);
+  EXPECT_NEAR(mean("sandwich_touch.toml"), 9.150, 0.002);
 }
 
 TEST(RayMesh, IsTheSameForAnyNumberOfThreads) {

@@ -97,6 +97,19 @@ EntryPoint entryPoint(const Scene& scene, const RayScene& rays, uint32_t objectI
   return entry;
 }
 
+Hit placeOf(const EntryPoint& entry, uint32_t object, uint32_t triangle, vec3 direction,
+            const RayScene& rays) {
+  Hit place;
+  place.object = object;
+  place.triangle = triangle;
+  place.position = entry.position;
+  place.flatPosition = entry.flatPosition;
+  place.normal = entry.normal;
+  place.geometricNormal = entry.geometricNormal;
+  rays.addTouching(direction, place);
+  return place;
+}
+
 PathNode firstNode(const CasterLight& light, const EntryPoint& entry, uint32_t corner) {
   PathNode node;
   node.direction = emitterDirection(light.emitter, entry.position);

@@ -35,6 +35,10 @@ vec3 entryPosition(const Scene& scene, uint32_t object, uint32_t triangle, vec2 
 EntryPoint entryPoint(const Scene& scene, const RayScene& rays, uint32_t object, uint32_t triangle,
                       vec2 weights);
 
+// What lies there, for light that comes along `direction`.
+Hit placeOf(const EntryPoint& entry, uint32_t object, uint32_t triangle, vec3 direction,
+            const RayScene& rays);
+
 // The first node of the path that begins there.
 PathNode firstNode(const CasterLight& light, const EntryPoint& entry, uint32_t corner);
 

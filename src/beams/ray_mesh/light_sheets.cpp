@@ -86,6 +86,8 @@ void LightSheets::settleCorners() {
   const std::size_t count = pending_.size();
   const uint32_t firstCorner = uint32_t(firstOfCorner_.size() - count);
   std::vector<PathNode> begun(count);
+  const bool mayTouch = !rays_.contacts().areNone();
+  std::vector<Hit> places(mayTouch ? count : 0);
   oneapi::tbb::parallel_for(IndexRange(0, count, kGrain), [&](const IndexRange& range) {
     std::vector<Ray> toLight;
     std::vector<uint8_t> isDark(range.size());
@@ -96,6 +98,7 @@ void LightSheets::settleCorners() {
       const vec2 weights = rims_[mesh]->movedOff(scene_.meshes[mesh], at.triangle, at.weights);
       const EntryPoint entry = entryPoint(scene_, rays_, light.object, at.triangle, weights);
       begun[i] = firstNode(light, entry, firstCorner + uint32_t(i));
+      if (mayTouch) places[i] = placeOf(entry, light.object, at.triangle, begun[i].direction, rays_);
       const float far = light.emitter.type == kEmitterDirectional ? std::numeric_limits<float>::infinity()
                                                                   : begun[i].length;
       const vec3 direction = -begun[i].direction;
@@ -103,11 +106,16 @@ void LightSheets::settleCorners() {
       toLight.push_back({entry.flatPosition, direction, near, beforeLamp(far)});
     }
     rays_.occluded(toLight, isDark);
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
-      if (isDark[i - range.begin()]) begun[i].state = PathState::dark;
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      // Of surfaces that lie in the same place light meets one.
+      const bool isOthers = mayTouch && places[i].object != begun[i].object;
+      if (isDark[i - range.begin()] || isOthers) begun[i].state = PathState::dark;
+    }
   });
   stats.shadowRays += count;
-  for (std::size_t i = 0; i < count; ++i) firstOfCorner_[firstCorner + i] = tree.addFirst(begun[i]);
+  for (std::size_t i = 0; i < count; ++i)
+    firstOfCorner_[firstCorner + i] =
+        tree.addFirst(begun[i], mayTouch ? places[i].touched() : std::span<const Touching>{});
   pending_.clear();
 }
 

@@ -22,18 +22,15 @@ MediaTable::Sides MediaTable::sidesOf(uint16_t medium, uint32_t object, bool ent
   lastKey_ = key;
   const auto found = known_.find(key);
   if (found != known_.end()) return last_ = found->second;
-  MediumStack before = stacks_[medium];
-  const float volume = rays_.enclosedVolume(object);
-  if (!entering && !before.contains(object)) before.enter(object, volume);
-  MediumStack beyond = before;
-  if (entering) {
-    beyond.enter(object, volume);
-  } else {
-    beyond.leave(object);
-  }
-  last_ = {numberOf(before), numberOf(beyond)};
+  last_ = sidesOf(medium, object, entering, {});
   known_.emplace(key, last_);
   return last_;
+}
+
+MediaTable::Sides MediaTable::sidesOf(uint16_t medium, uint32_t object, bool entering,
+                                      std::span<const Touching> touching) {
+  const MediaSides sides = nephroid::sidesOf(rays_, stacks_[medium], object, entering, touching);
+  return {numberOf(sides.before), numberOf(sides.beyond)};
 }
 
 }  // namespace nephroid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -16,13 +17,13 @@ class MediaTable {
   uint16_t numberOf(const MediumStack& stack);
   uint32_t top(uint16_t medium) const { return tops_[medium]; }
 
-  // What a path is in before a boundary of `object` and beyond it. Light that leaves what it never entered,
-  // through an open mesh, was inside it all the same.
+  // What a path is in before a boundary of `object`, and of what lies in the same place, and beyond it.
   struct Sides {
     uint16_t before = 0;
     uint16_t beyond = 0;
   };
   Sides sidesOf(uint16_t medium, uint32_t object, bool entering);
+  Sides sidesOf(uint16_t medium, uint32_t object, bool entering, std::span<const Touching> touching);
 
  private:
   const RayScene& rays_;

@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 
 #include "core/index_range.h"
@@ -72,19 +73,22 @@ uint32_t PathTree::childOf(uint32_t parent, uint8_t way, std::vector<uint32_t>& 
   return index;
 }
 
-void PathTree::setSides(PathNode& node) {
+void PathTree::setSides(PathNode& node, std::span<const Touching> touching) {
   const Material& material = *materials_[node.object];
   node.before = node.beyond = node.medium;
   if (material.type != MaterialType::dielectric || material.thinWalled) return;
-  const MediaTable::Sides sides = mediaTable_.sidesOf(node.medium, node.object, entersAt(node));
+  const bool enters = entersAt(node);
+  const MediaTable::Sides sides = touching.empty()
+                                      ? mediaTable_.sidesOf(node.medium, node.object, enters)
+                                      : mediaTable_.sidesOf(node.medium, node.object, enters, touching);
   node.before = sides.before;
   node.beyond = sides.beyond;
 }
 
-uint32_t PathTree::addFirst(const PathNode& node) {
+uint32_t PathTree::addFirst(const PathNode& node, std::span<const Touching> touching) {
   nodes.push_back(node);
   PathNode& first = nodes.back();
-  setSides(first);
+  setSides(first, touching);
   first.signature = signatureOf(0, first);
   const uint32_t medium = mediaTable_.top(first.medium);
   if (medium != kNone) first.transmittance *= transmittanceOf(*materials_[medium], first.length);
@@ -199,6 +203,8 @@ void PathTree::trace(std::span<const uint32_t> bent) {
         PathNode& node = nodes[bent[first + i]];
         node.isQueued = false;
         finish(node, batch[i], hits[i]);
+        if (hits[i].touchingCount > 0)
+          joints_.push_back({bent[first + i], hits[i].touching, hits[i].touchingCount});
         const bool tellsSurface =
             node.state == PathState::arrived && !target_.isPlane && hasFewFaces_[node.object];
         node.signature = signatureOf(nodes[node.parent].signature, node, tellsSurface);
@@ -206,8 +212,19 @@ void PathTree::trace(std::span<const uint32_t> bent) {
     }
   });
   raysTraced += bent.size();
-  for (const uint32_t index : bent)
-    if (nodes[index].state == PathState::atCaster) setSides(nodes[index]);
+  setSidesOf(bent);
+}
+
+// In their order, so that media have the same numbers however many threads there are.
+void PathTree::setSidesOf(std::span<const uint32_t> traced) {
+  for (const uint32_t index : traced)
+    if (nodes[index].state == PathState::atCaster) setSides(nodes[index], {});
+  if (joints_.empty()) return;
+  std::sort(joints_.begin(), joints_.end(), [](const Joint& a, const Joint& b) { return a.node < b.node; });
+  for (const Joint& joint : joints_)
+    if (nodes[joint.node].state == PathState::atCaster)
+      setSides(nodes[joint.node], {joint.touching.data(), joint.count});
+  joints_.clear();
 }
 
 }  // namespace nephroid

@@ -2,6 +2,9 @@
 // ways; each is traced once, when it is first asked for.
 #pragma once
 
+#include <oneapi/tbb/concurrent_vector.h>
+
+#include <array>
 #include <span>
 #include <vector>
 
@@ -66,8 +69,8 @@ class PathTree {
   // The node after `node` that way. A new one is at `fresh`'s end, to be bent and traced.
   uint32_t childOf(uint32_t node, uint8_t way, std::vector<uint32_t>& fresh);
 
-  // A path's first node, at a caster, where light that comes through `media` meets it.
-  uint32_t addFirst(const PathNode& node);
+  // A path's first node, at a caster, and what lies there besides.
+  uint32_t addFirst(const PathNode& node, std::span<const Touching> touching);
 
   // Adds a node to `queue` that is to be traced and is in no queue.
   void queue(uint32_t index, std::vector<uint32_t>& queue) {
@@ -86,8 +89,16 @@ class PathTree {
 
  private:
   void bendOne(PathNode& node) const;
+  // Where a path met surfaces that lie in the same place.
+  struct Joint {
+    uint32_t node = 0;
+    std::array<Touching, kMostTouching> touching{};
+    uint32_t count = 0;
+  };
+
   void finish(PathNode& node, const Ray& ray, const Hit& hit) const;
-  void setSides(PathNode& node);
+  void setSidesOf(std::span<const uint32_t> traced);
+  void setSides(PathNode& node, std::span<const Touching> touching);
 
   vec3 leftAfter(uint16_t medium, vec3 start, vec3 direction, float length) const;
 
@@ -98,6 +109,7 @@ class PathTree {
   std::vector<const Material*> materials_;
   std::vector<uint8_t> hasFewFaces_;  // of the objects, whose light is parted at their edges
   MediaTable& mediaTable_;
+  oneapi::tbb::concurrent_vector<Joint> joints_;  // of those that are being traced
 };
 
 }  // namespace nephroid
