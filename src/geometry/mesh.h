@@ -8,6 +8,13 @@
 
 namespace nephroid {
 
+// What finishMesh found in a mesh.
+struct MeshFindings {
+  uint32_t boundaryEdges = 0;      // with one face, after joining equal positions
+  uint32_t nonManifoldEdges = 0;   // with more than two
+  uint32_t flippedEdges = 0;       // whose two faces run the same way: one of them is turned inside out
+};
+
 // Triangles in the object's own space, counterclockwise from outside. All arrays but `triangles` are per
 // vertex.
 struct Mesh {
@@ -18,7 +25,8 @@ struct Mesh {
   std::vector<uvec3> triangles;
   bool isClosed = false;          // every edge has two faces after joining equal positions
   uint32_t droppedTriangles = 0;  // triangles without an area, left out when the mesh was made
-  bool isFinished = false;        // finishMesh has made it ready, as all meshes of a scene have to be
+  MeshFindings findings;
+  bool isFinished = false;  // finishMesh has made it ready, as all meshes of a scene have to be
   // The surface is curved between vertices, as their normals tell (shapes); otherwise its triangles are flat.
   bool isCurved = false;
   // 0..1, the part of the surface's area that consists of flat facets: 1 for a box or a cut gem, the two ends

@@ -1,0 +1,95 @@
+// What finishMesh mends in the faces of a mesh.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/mesh_checks.h"
+#include "geometry/shapes.h"
+
+namespace nephroid {
+namespace {
+
+// A cube of 8 vertices around `center` that looks outward.
+Mesh cube(vec3 center = vec3(0), float half = 0.5f) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.push_back(center + half * vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+Mesh finished(Mesh mesh) {
+  finishMesh(mesh, "test");
+  return mesh;
+}
+
+// Every triangle and every normal looks away from the center.
+void expectOutward(const Mesh& mesh, vec3 center = vec3(0)) {
+  for (const uvec3& t : mesh.triangles) {
+    const vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+    EXPECT_GT(dot(cross(b - a, c - a), a + b + c - 3.0f * center), 0);
+  }
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    EXPECT_GT(dot(mesh.normals[i], mesh.positions[i] - center), 0);
+}
+
+TEST(MeshRepairs, AMeshThatIsRightStaysAsItIs) {
+  const Mesh mesh = finished(cube());
+  EXPECT_TRUE(mesh.isClosed);
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  expectOutward(mesh);
+}
+
+// A ball as exporters write it: the last column of vertices is the first, but for rounding.
+Mesh ballWithSeam(vec3 center, float gap) {
+  constexpr uint32_t kRows = 12, kColumns = 24;
+  Mesh mesh;
+  for (uint32_t row = 0; row <= kRows; ++row)
+    for (uint32_t column = 0; column <= kColumns; ++column) {
+      const double theta = M_PI * row / kRows, phi = 2 * M_PI * (column % kColumns) / kColumns;
+      vec3 p(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+      if (row == 0 || row == kRows) p.x = p.z = 0;
+      if (column == kColumns) p.z -= gap;
+      mesh.positions.push_back(center + p);
+    }
+  for (uint32_t row = 0; row < kRows; ++row)
+    for (uint32_t column = 0; column < kColumns; ++column) {
+      const uint32_t a = row * (kColumns + 1) + column, b = a + 1, c = a + kColumns + 1, d = c + 1;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
+    }
+  return mesh;
+}
+
+TEST(MeshRepairs, ASeamAsNarrowAsRoundingIsClosed) {
+  for (const float gap : {1e-16f, 1e-7f, 3e-7f}) {
+    const Mesh mesh = finished(ballWithSeam(vec3(0), gap));
+    EXPECT_TRUE(mesh.isClosed) << gap;
+    EXPECT_EQ(mesh.findings.boundaryEdges, 0u);
+    // No crease where the seam was: normals there are those of a ball.
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+      EXPECT_GT(dot(mesh.normals[i], normalize(mesh.positions[i])), 0.998f);
+  }
+  // Far from the origin coordinates are coarser.
+  EXPECT_TRUE(finished(ballWithSeam(vec3(500, 0, 0), 1e-4f)).isClosed);
+  EXPECT_FALSE(finished(ballWithSeam(vec3(0), 1e-5f)).isClosed);
+}
+
+TEST(MeshRepairs, SeamsAreNotClosedAcrossSmallThings) {
+  // Two sheets nearer to each other than rounding is on the whole, but not than their own edges are long.
+  Mesh mesh;
+  const float fine = 2e-7f;
+  for (const float z : {0.0f, fine}) {
+    const auto first = uint32_t(mesh.positions.size());
+    for (const vec3 p : {vec3(0, 0, z), vec3(fine, 0, z), vec3(0, fine, z)}) mesh.positions.push_back(p);
+    mesh.triangles.push_back(uvec3(first, first + 1, first + 2));
+  }
+  const auto first = uint32_t(mesh.positions.size());
+  for (const vec3 p : {vec3(1, 0, 0), vec3(1, 1, 0), vec3(1, 0, 1)}) mesh.positions.push_back(p);
+  mesh.triangles.push_back(uvec3(first, first + 1, first + 2));
+  EXPECT_EQ(finished(mesh).positions.size(), 9u);
+}
+
+}  // namespace
+}  // namespace nephroid
