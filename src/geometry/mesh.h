@@ -8,11 +8,12 @@
 
 namespace nephroid {
 
-// What finishMesh found in a mesh.
+// What finishMesh found in a mesh, and mended.
 struct MeshFindings {
   uint32_t boundaryEdges = 0;      // with one face, after joining equal positions
   uint32_t nonManifoldEdges = 0;   // with more than two
   uint32_t flippedEdges = 0;       // whose two faces run the same way: one of them is turned inside out
+  uint32_t repeatedTriangles = 0;  // that stood twice, left out
 };
 
 // Triangles in the object's own space, counterclockwise from outside. All arrays but `triangles` are per

@@ -169,6 +169,7 @@ void mendFaces(Mesh& mesh) {
   std::vector<uint32_t> joined = joinEqualPositions(mesh.positions);
   MeshEdges edges(mesh.triangles, joined);
   if (closeSeams(mesh, edges, joined)) edges = MeshEdges(mesh.triangles, joined);
+  if (dropRepeatedTriangles(mesh, edges, joined)) edges = MeshEdges(mesh.triangles, joined);
   countEdges(edges, mesh.findings);
   mesh.isClosed = mesh.findings.boundaryEdges == 0 && mesh.findings.nonManifoldEdges == 0;
 }

@@ -1,4 +1,4 @@
-// Mends what exporters do to the faces of a mesh: seams a hair wide.
+// Mends what exporters do to the faces of a mesh: seams a hair wide, and faces that stand twice.
 #pragma once
 
 #include <cstdint>
@@ -13,5 +13,11 @@ namespace nephroid {
 // one place; never where its own
 // edges are as short as that. `joined` follows. False where nothing moved.
 bool closeSeams(Mesh& mesh, const MeshEdges& edges, std::vector<uint32_t>& joined);
+
+// Leaves out triangles that stand twice, and counts them. Of two that face the same way, the later one. Where
+// a whole piece of the mesh has reversed copies, as in a double-sided export, the copies. Between two parts
+// that are glued together, both. A sheet with two sides that is fixed to something else stays. False where
+// there are none.
+bool dropRepeatedTriangles(Mesh& mesh, const MeshEdges& edges, const std::vector<uint32_t>& joined);
 
 }  // namespace nephroid

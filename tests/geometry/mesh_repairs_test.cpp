@@ -19,6 +19,17 @@ Mesh cube(vec3 center = vec3(0), float half = 0.5f) {
   return mesh;
 }
 
+void append(const Mesh& from, Mesh& to) {
+  const auto first = uint32_t(to.positions.size());
+  to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
+  to.normals.insert(to.normals.end(), from.normals.begin(), from.normals.end());
+  for (const uvec3& t : from.triangles) to.triangles.push_back(t + first);
+}
+
+void turn(Mesh& mesh) {
+  for (uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+}
+
 Mesh finished(Mesh mesh) {
   finishMesh(mesh, "test");
   return mesh;
@@ -38,7 +49,50 @@ TEST(MeshRepairs, AMeshThatIsRightStaysAsItIs) {
   const Mesh mesh = finished(cube());
   EXPECT_TRUE(mesh.isClosed);
   EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_EQ(mesh.findings.repeatedTriangles, 0u);
   expectOutward(mesh);
+}
+
+void expectSame(const Mesh& a, const Mesh& b) {
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+TEST(MeshRepairs, ADoubledMeshIsTheSingleOne) {
+  const Mesh single = finished(cube());
+  Mesh twice = cube(), doubleSided = cube(), other = cube();
+  append(cube(), twice);
+  turn(other);
+  append(other, doubleSided);
+  for (const Mesh& doubled : {twice, doubleSided}) {
+    const Mesh mesh = finished(doubled);
+    EXPECT_EQ(mesh.findings.repeatedTriangles, 12u);
+    expectSame(mesh, single);
+  }
+}
+
+TEST(MeshRepairs, TheWallBetweenPartsThatAreGluedGoes) {
+  Mesh glued = cube(vec3(-0.5f, 0, 0)), right = cube(vec3(0.5f, 0, 0));
+  // The diagonals of the common wall have to be the same.
+  right.triangles[8] = {0, 4, 6};
+  glued.triangles[10] = {1, 7, 5};
+  glued.triangles[11] = {1, 3, 7};
+  append(right, glued);
+  const Mesh mesh = finished(glued);
+  EXPECT_EQ(mesh.findings.repeatedTriangles, 4u);
+  EXPECT_TRUE(mesh.isClosed);
+  EXPECT_EQ(mesh.triangles.size(), 20u);
+  EXPECT_NEAR(meshTopology(mesh).signedVolume, 2, 1e-6);
+}
+
+// A leaf with two sides on a trunk is seen; it must not vanish.
+TEST(MeshRepairs, ASheetWithTwoSidesThatIsFixedToSomethingStays) {
+  Mesh mesh = cube();
+  mesh.positions.push_back(vec3(0, 0, 3));
+  mesh.triangles.push_back({4, 5, 8});
+  mesh.triangles.push_back({4, 8, 5});
+  EXPECT_EQ(finished(mesh).findings.repeatedTriangles, 0u);
 }
 
 // A ball as exporters write it: the last column of vertices is the first, but for rounding.
