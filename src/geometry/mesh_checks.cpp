@@ -165,13 +165,15 @@ void countEdges(const MeshEdges& edges, Counts& counts) {
 }
 
 // Edges are found anew only where something was mended.
-void mendFaces(Mesh& mesh) {
+void mendFaces(Mesh& mesh, Faces faces) {
   std::vector<uint32_t> joined = joinEqualPositions(mesh.positions);
   MeshEdges edges(mesh.triangles, joined);
   if (closeSeams(mesh, edges, joined)) edges = MeshEdges(mesh.triangles, joined);
   if (dropRepeatedTriangles(mesh, edges, joined)) edges = MeshEdges(mesh.triangles, joined);
   countEdges(edges, mesh.findings);
   mesh.isClosed = mesh.findings.boundaryEdges == 0 && mesh.findings.nonManifoldEdges == 0;
+  if (orientParts(mesh, edges, faces))
+    countEdges(MeshEdges(mesh.triangles, joinEqualPositions(mesh.positions)), mesh.findings);
 }
 
 }  // namespace
@@ -203,13 +205,13 @@ void checkMesh(const Mesh& mesh, const std::string& source) {
   requireFinished(mesh, source);
 }
 
-void finishMesh(Mesh& mesh, const std::string& source) {
+void finishMesh(Mesh& mesh, const std::string& source, Faces faces) {
   requireUsable(mesh, source);
   if (!hasUsableNormals(mesh)) mesh.normals.clear();
   for (vec3& n : mesh.normals) n = glm::normalize(n);
   // A flat triangle between three different vertices still holds its neighbors together, so the mesh is
   // judged before it goes.
-  mendFaces(mesh);
+  mendFaces(mesh, faces);
   const std::size_t given = mesh.triangles.size();
   std::erase_if(mesh.triangles, [&](uvec3 t) { return hasNoArea(mesh, t); });
   mesh.droppedTriangles += static_cast<uint32_t>(given - mesh.triangles.size());

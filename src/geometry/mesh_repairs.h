@@ -1,4 +1,5 @@
-// Mends what exporters do to the faces of a mesh: seams a hair wide, and faces that stand twice.
+// Mends what exporters do to the faces of a mesh: seams a hair wide, faces that stand twice, and closed parts
+// that are turned inside out.
 #pragma once
 
 #include <cstdint>
@@ -19,5 +20,10 @@ bool closeSeams(Mesh& mesh, const MeshEdges& edges, std::vector<uint32_t>& joine
 // that are glued together, both. A sheet with two sides that is fixed to something else stays. False where
 // there are none.
 bool dropRepeatedTriangles(Mesh& mesh, const MeshEdges& edges, const std::vector<uint32_t>& joined);
+
+// Turns closed parts whose faces look inward or run against each other, with their normals, and counts them;
+// vertices that another part uses as well are doubled. With Faces::asGiven it only counts those that look
+// inward. False where none was turned.
+bool orientParts(Mesh& mesh, const MeshEdges& edges, Faces faces);
 
 }  // namespace nephroid

@@ -30,8 +30,8 @@ void turn(Mesh& mesh) {
   for (uvec3& t : mesh.triangles) std::swap(t.y, t.z);
 }
 
-Mesh finished(Mesh mesh) {
-  finishMesh(mesh, "test");
+Mesh finished(Mesh mesh, Faces faces = Faces::outward) {
+  finishMesh(mesh, "test", faces);
   return mesh;
 }
 
@@ -49,8 +49,88 @@ TEST(MeshRepairs, AMeshThatIsRightStaysAsItIs) {
   const Mesh mesh = finished(cube());
   EXPECT_TRUE(mesh.isClosed);
   EXPECT_EQ(mesh.triangles.size(), 12u);
-  EXPECT_EQ(mesh.findings.repeatedTriangles, 0u);
+  EXPECT_EQ(mesh.findings.turnedParts + mesh.findings.repeatedTriangles + mesh.findings.inwardParts, 0u);
   expectOutward(mesh);
+}
+
+TEST(MeshRepairs, AClosedPartThatLooksInwardIsTurned) {
+  Mesh inward = cube();
+  turn(inward);
+  const Mesh mesh = finished(inward);
+  EXPECT_EQ(mesh.findings.turnedParts, 1u);
+  EXPECT_EQ(mesh.findings.turnedTriangles, 12u);
+  expectOutward(mesh);
+  const Mesh kept = finished(inward, Faces::asGiven);
+  EXPECT_EQ(kept.findings.turnedParts, 0u);
+  EXPECT_EQ(kept.findings.inwardParts, 1u);
+  EXPECT_NEAR(meshTopology(kept).signedVolume, -1, 1e-6);
+}
+
+// Normals may be turned with the faces, or have been right all along.
+TEST(MeshRepairs, GivenNormalsLookTheWayTheTurnedFacesDo) {
+  for (const float side : {-1.0f, 1.0f}) {
+    Mesh ball = makeSphere(1, {.vertices = 200});
+    turn(ball);
+    for (vec3& normal : ball.normals) normal *= side;
+    expectOutward(finished(ball));
+  }
+}
+
+TEST(MeshRepairs, OnePartInsideOutIsTurnedAndTheOtherIsNot) {
+  Mesh both = cube(vec3(-2, 0, 0)), inward = cube(vec3(2, 0, 0));
+  turn(inward);
+  append(inward, both);
+  const Mesh mesh = finished(both);
+  EXPECT_EQ(mesh.findings.turnedParts, 1u);
+  EXPECT_EQ(mesh.findings.turnedTriangles, 12u);
+  EXPECT_NEAR(meshTopology(mesh).signedVolume, 2, 1e-6);
+  // Also within another, where it could be a bubble.
+  Mesh nested = cube(vec3(0), 2);
+  inward = cube();
+  turn(inward);
+  append(inward, nested);
+  EXPECT_EQ(finished(nested).findings.turnedParts, 1u);
+  EXPECT_EQ(finished(nested, Faces::asGiven).findings.inwardParts, 1u);
+}
+
+TEST(MeshRepairs, AVertexOfATurnedPartAndAnotherIsDoubled) {
+  Mesh both = cube(vec3(-0.5f)), inward = cube(vec3(0.5f));
+  both.normals.assign(8, vec3(0));
+  for (std::size_t i = 0; i < 8; ++i) both.normals[i] = normalize(both.positions[i] + vec3(0.5f));
+  // The corner at the origin, number 7 of the one and number 0 of the other, is one vertex.
+  turn(inward);
+  for (std::size_t i = 1; i < 8; ++i) {
+    both.positions.push_back(inward.positions[i]);
+    both.normals.push_back(-normalize(inward.positions[i] - vec3(0.5f)));
+  }
+  for (const uvec3& t : inward.triangles)
+    both.triangles.emplace_back(t.x ? t.x + 7 : 7, t.y ? t.y + 7 : 7, t.z ? t.z + 7 : 7);
+  const Mesh mesh = finished(both);
+  ASSERT_EQ(mesh.positions.size(), 16u);
+  for (const uvec3& t : mesh.triangles) {
+    const vec3 middle = (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0f;
+    const vec3 center(middle.x + middle.y + middle.z < 0 ? -0.5f : 0.5f);
+    for (int k = 0; k < 3; ++k) EXPECT_GT(dot(mesh.normals[t[k]], mesh.positions[t[k]] - center), 0);
+  }
+}
+
+TEST(MeshRepairs, FacesOfAPartThatRunAgainstEachOtherAreMadeAlike) {
+  Mesh mixed = cube();
+  for (const std::size_t t : {1u, 4u, 7u}) std::swap(mixed.triangles[t].y, mixed.triangles[t].z);
+  const Mesh mesh = finished(mixed);
+  EXPECT_EQ(mesh.findings.turnedTriangles, 3u);
+  EXPECT_EQ(mesh.findings.flippedEdges, 0u);
+  expectOutward(mesh);
+}
+
+TEST(MeshRepairs, OpenMeshesAreNotTurned) {
+  Mesh open = cube();
+  turn(open);
+  open.triangles.pop_back();
+  const Mesh mesh = finished(open);
+  EXPECT_FALSE(mesh.isClosed);
+  EXPECT_EQ(mesh.findings.boundaryEdges, 3u);
+  EXPECT_EQ(mesh.findings.turnedParts, 0u);
 }
 
 void expectSame(const Mesh& a, const Mesh& b) {
@@ -68,8 +148,15 @@ TEST(MeshRepairs, ADoubledMeshIsTheSingleOne) {
   for (const Mesh& doubled : {twice, doubleSided}) {
     const Mesh mesh = finished(doubled);
     EXPECT_EQ(mesh.findings.repeatedTriangles, 12u);
+    EXPECT_EQ(mesh.findings.turnedParts, 0u);
     expectSame(mesh, single);
   }
+  // With the reversed copies first, what is left is turned.
+  append(cube(), other);
+  const Mesh mesh = finished(other);
+  EXPECT_EQ(mesh.findings.repeatedTriangles, 12u);
+  EXPECT_EQ(mesh.findings.turnedTriangles, 12u);
+  expectOutward(mesh);
 }
 
 TEST(MeshRepairs, TheWallBetweenPartsThatAreGluedGoes) {
