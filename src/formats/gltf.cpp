@@ -93,7 +93,7 @@ void addTriangles(const GltfFile& file, int mode, const std::vector<uint32_t>& c
 
 class GltfReader {
  public:
-  explicit GltfReader(const std::filesystem::path& path) : file_(openGltf(path)) {}
+  GltfReader(const std::filesystem::path& path, Faces faces) : file_(openGltf(path)), faces_(faces) {}
 
   GltfPart read() {
     struct Visit {
@@ -200,7 +200,7 @@ class GltfReader {
     if (baked) {
       Mesh mesh = readPrimitive(index, primitiveIndex, primitive);
       bake(mesh, *baked);
-      finishMesh(mesh, file_.source + ": mesh \"" + mesh.name + "\"");
+      finishMesh(mesh, file_.source + ": mesh \"" + mesh.name + "\"", faces_);
       part_.meshes.push_back(std::move(mesh));
       return next;
     }
@@ -229,7 +229,7 @@ class GltfReader {
       for (uint32_t i = 0; i < mesh.positions.size(); ++i) corners.push_back(i);
     }
     addTriangles(file_, primitive.mode, corners, mesh);
-    finishMesh(mesh, source);
+    finishMesh(mesh, source, faces_);
     return mesh;
   }
 
@@ -318,6 +318,7 @@ class GltfReader {
   }
 
   GltfFile file_;
+  Faces faces_;
   GltfPart part_;
   std::map<int, uint32_t> materials_, textures_;
   std::map<std::pair<int, std::size_t>, uint32_t> meshes_;
@@ -326,12 +327,12 @@ class GltfReader {
 
 }  // namespace
 
-GltfPart loadGltf(const std::filesystem::path& file) {
-  return GltfReader(file).read();
+GltfPart loadGltf(const std::filesystem::path& file, Faces faces) {
+  return GltfReader(file, faces).read();
 }
 
-Mesh loadGltfMesh(const std::filesystem::path& file) {
-  const GltfPart part = loadGltf(file);
+Mesh loadGltfMesh(const std::filesystem::path& file, Faces faces) {
+  const GltfPart part = loadGltf(file, faces);
   Mesh mesh;
   for (const Object& object : part.objects) {
     const Mesh& piece = part.meshes[object.mesh];
@@ -339,8 +340,12 @@ Mesh loadGltfMesh(const std::filesystem::path& file) {
     for (const vec3 p : piece.positions) mesh.positions.push_back(object.placement.point(p));
     for (const vec3 n : piece.normals) mesh.normals.push_back(object.placement.direction(n));
     for (const uvec3 t : piece.triangles) mesh.triangles.push_back(t + first);
+    mesh.droppedTriangles += piece.droppedTriangles;
+    mesh.findings.repeatedTriangles += piece.findings.repeatedTriangles;
+    mesh.findings.turnedParts += piece.findings.turnedParts;
+    mesh.findings.turnedTriangles += piece.findings.turnedTriangles;
   }
-  finishMesh(mesh, file.string());
+  finishMesh(mesh, file.string(), faces);
   return mesh;
 }
 

@@ -29,9 +29,9 @@ struct GltfPart {
   std::vector<Light> lights;
   std::optional<Camera> camera;
 };
-GltfPart loadGltf(const std::filesystem::path& file);
+GltfPart loadGltf(const std::filesystem::path& file, Faces faces = Faces::outward);
 
 // Loads only the geometry: all nodes as one mesh.
-Mesh loadGltfMesh(const std::filesystem::path& file);
+Mesh loadGltfMesh(const std::filesystem::path& file, Faces faces);
 
 }  // namespace nephroid

@@ -44,7 +44,7 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& transfo
 
 }  // namespace
 
-Mesh read3ds(const std::string& bytes, const std::string& source) {
+Mesh read3ds(const std::string& bytes, const std::string& source, Faces faces) {
   Mesh mesh;
   try {
     Assimp::Importer importer;
@@ -61,7 +61,7 @@ Mesh read3ds(const std::string& bytes, const std::string& source) {
   } catch (const std::exception& error) {
     throw InputError(oneLine(source + ": cannot be read: " + error.what()));
   }
-  finishMesh(mesh, source);
+  finishMesh(mesh, source, faces);
   return mesh;
 }
 

@@ -82,12 +82,12 @@ std::filesystem::path findModel(const std::filesystem::path& name,
                            " (set NEPHROID_MODELS to add directories)"));
 }
 
-Mesh loadMeshFile(const std::filesystem::path& file) {
+Mesh loadMeshFile(const std::filesystem::path& file, Faces faces) {
   const std::string extension = lowerExtension(file), source = oneLine(file.string());
-  if (extension == ".gltf" || extension == ".glb") return loadGltfMesh(file);
-  if (extension == ".obj") return readObj(readFile(file, kLargestMeshFile), source);
-  if (extension == ".ply") return readPly(readFile(file, kLargestMeshFile), source);
-  if (extension == ".3ds") return read3ds(readFile(file, kLargestMeshFile), source);
+  if (extension == ".gltf" || extension == ".glb") return loadGltfMesh(file, faces);
+  if (extension == ".obj") return readObj(readFile(file, kLargestMeshFile), source, faces);
+  if (extension == ".ply") return readPly(readFile(file, kLargestMeshFile), source, faces);
+  if (extension == ".3ds") return read3ds(readFile(file, kLargestMeshFile), source, faces);
   throw InputError(source + ": a mesh is an .obj, .ply, .3ds, .gltf or .glb file");
 }
 

@@ -9,10 +9,10 @@
 namespace nephroid {
 
 // Reads the geometry of an .obj, .ply, .3ds, .gltf or .glb file as one mesh; the extension decides. Normals
-// are taken from the file where every corner has one; otherwise they are averaged by area. Texture
-// coordinates are left out: materials of a scene file have no texture, and vertices that are split at texture
-// seams would only cost rays. Throws InputError.
-Mesh loadMeshFile(const std::filesystem::path& file);
+// are taken from the file where every corner has one; otherwise they are averaged by area. `faces`: as for
+// finishMesh. Texture coordinates are left out: materials of a scene file have no texture, and vertices that
+// are split at texture seams would only cost rays. Throws InputError.
+Mesh loadMeshFile(const std::filesystem::path& file, Faces faces = Faces::outward);
 
 // Finds a mesh that is named in a scene file. Looks beside the scene file, then in the directories of
 // NEPHROID_MODELS (separated by colons; by default the models of Debian's glmark2-data). Throws InputError

@@ -8,8 +8,8 @@
 
 namespace nephroid {
 
-Mesh readObj(const std::string& bytes, const std::string& source);
-Mesh readPly(const std::string& bytes, const std::string& source);
-Mesh read3ds(const std::string& bytes, const std::string& source);
+Mesh readObj(const std::string& bytes, const std::string& source, Faces faces);
+Mesh readPly(const std::string& bytes, const std::string& source, Faces faces);
+Mesh read3ds(const std::string& bytes, const std::string& source, Faces faces);
 
 }  // namespace nephroid

@@ -142,7 +142,7 @@ tinyobj::callback_t callbacks() {
 
 }  // namespace
 
-Mesh readObj(const std::string& bytes, const std::string& source) {
+Mesh readObj(const std::string& bytes, const std::string& source, Faces faces) {
   const ObjText text = geometryOf(bytes, source);
   if (text.faceLines.empty())
     throw InputError(source + ": has no faces; an OBJ file needs lines \"v x y z\" and \"f i j k\"");
@@ -153,7 +153,7 @@ Mesh readObj(const std::string& bytes, const std::string& source) {
     throw InputError(source + ": " + error);
   }
   if (!reader.everyCornerHasNormal) reader.mesh.normals.clear();
-  finishMesh(reader.mesh, source);
+  finishMesh(reader.mesh, source, faces);
   return std::move(reader.mesh);
 }
 

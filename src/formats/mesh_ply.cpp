@@ -278,9 +278,9 @@ class PlyReader {
 
 }  // namespace
 
-Mesh readPly(const std::string& bytes, const std::string& source) {
+Mesh readPly(const std::string& bytes, const std::string& source, Faces faces) {
   Mesh mesh = PlyReader(bytes, source).read();
-  finishMesh(mesh, source);
+  finishMesh(mesh, source, faces);
   return mesh;
 }
 

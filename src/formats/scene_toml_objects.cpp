@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
+#include <tuple>
 
 #include "core/error.h"
 #include "formats/gltf.h"
@@ -126,6 +128,11 @@ void addTo(Scene& scene, GltfPart part, const Placement& placement, const std::s
   append(scene.lights, part.lights);
 }
 
+Faces readFaces(TomlTable& table) {
+  constexpr std::array kFaces{Faces::outward, Faces::asGiven};
+  return kFaces[table.choice("faces", {"outward", "as-given"})];
+}
+
 class ObjectReader {
  public:
   ObjectReader(Scene& scene, WaveRuns* waves) : scene_(scene), waves_(waves) {}
@@ -159,29 +166,31 @@ class ObjectReader {
     const auto path = findModel(name, scene_.file.parent_path(), table.at("mesh"));
     const auto vertices =
         static_cast<uint32_t>(table.integer("vertices", {4, kMostShapeVertices}).value_or(0));
-    const auto known = meshOfFile_.find({path, vertices});
+    const Faces faces = readFaces(table);
+    const auto known = meshOfFile_.find({path, vertices, faces});
     if (known != meshOfFile_.end()) return known->second;
-    Mesh mesh = loadMeshFile(path);
+    Mesh mesh = loadMeshFile(path, faces);
     mesh.name = name;
     if (vertices > 0) mesh = withVertices(mesh, vertices, table.at("vertices"));
     if (vertices > 0 && mesh.positions.size() > kVertexSlack * vertices) {
       table.fail("vertices", "is too few: the mesh cannot be simplified to less than " +
                                  std::to_string(mesh.positions.size()));
     }
-    return meshOfFile_[{path, vertices}] = added(std::move(mesh));
+    return meshOfFile_[{path, vertices, faces}] = added(std::move(mesh));
   }
 
   // The names of what is imported begin with the object's.
   void import(TomlTable& table, const std::string& name) {
     const std::string file = table.requiredText("import");
     const ObjectTransform transform = readTransform(table);
+    const Faces faces = readFaces(table);
     ImportChanges changes = importChanges(table);
     table.finish();
     const auto path = findModel(file, scene_.file.parent_path(), table.at("import"));
     if (lowerExtension(path) != ".gltf" && lowerExtension(path) != ".glb") {
       table.fail("import", "takes a .gltf or .glb file; for the geometry of others use \"mesh\"");
     }
-    GltfPart part = loadGltf(path);
+    GltfPart part = loadGltf(path, faces);
     if (part.objects.empty() && transform.fit) table.fail("fit", "cannot be used: the file has no geometry");
     const Placement placement = transform.fit ? fitted(transform, boundsOf(part)) : transform.placement;
     if (part.camera && !camera) camera = placed(placement, *part.camera);
@@ -191,7 +200,8 @@ class ObjectReader {
 
   Scene& scene_;
   WaveRuns* waves_;
-  std::map<std::pair<std::filesystem::path, uint32_t>, uint32_t> meshOfFile_;  // by file and "vertices"
+  // By file, "vertices" and "faces".
+  std::map<std::tuple<std::filesystem::path, uint32_t, Faces>, uint32_t> meshOfFile_;
 };
 
 }  // namespace

@@ -8,6 +8,21 @@
 
 namespace nephroid {
 
+// What to do with closed parts of a mesh whose faces look inward: turn them, or leave them as they are, for a
+// bubble of air.
+enum class Faces { outward, asGiven };
+
+// What finishMesh found in a mesh, and mended.
+struct MeshFindings {
+  uint32_t boundaryEdges = 0;      // with one face, after joining equal positions
+  uint32_t nonManifoldEdges = 0;   // with more than two
+  uint32_t flippedEdges = 0;       // whose two faces run the same way: one of them is turned inside out
+  uint32_t repeatedTriangles = 0;  // that stood twice, left out
+  uint32_t turnedParts = 0;        // closed parts that were turned, in whole or in part
+  uint32_t turnedTriangles = 0;    // of them
+  uint32_t inwardParts = 0;        // closed parts that look inward, and were left so
+};
+
 // Triangles in the object's own space, counterclockwise from outside. All arrays but `triangles` are per
 // vertex.
 struct Mesh {
@@ -18,7 +33,8 @@ struct Mesh {
   std::vector<uvec3> triangles;
   bool isClosed = false;          // every edge has two faces after joining equal positions
   uint32_t droppedTriangles = 0;  // triangles without an area, left out when the mesh was made
-  bool isFinished = false;        // finishMesh has made it ready, as all meshes of a scene have to be
+  MeshFindings findings;
+  bool isFinished = false;  // finishMesh has made it ready, as all meshes of a scene have to be
   // The surface is curved between vertices, as their normals tell (shapes); otherwise its triangles are flat.
   bool isCurved = false;
   // 0..1, the part of the surface's area that consists of flat facets: 1 for a box or a cut gem, the two ends

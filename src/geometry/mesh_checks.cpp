@@ -6,6 +6,9 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "geometry/mesh_edges.h"
+#include "geometry/mesh_repairs.h"
+#include "geometry/triangle_area.h"
 
 namespace nephroid {
 namespace {
@@ -44,18 +47,6 @@ VertexKey keyOf(const Mesh& mesh, std::size_t i) {
 
 bool isFinite(vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-dvec3 areaVector(const Mesh& mesh, uvec3 t) {
-  const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-  return 0.5 * glm::cross(b - a, c - a);
-}
-
-// Flatter than what single precision can tell from a line.
-bool hasNoArea(const Mesh& mesh, uvec3 t) {
-  const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-  const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
-  return !(glm::length(areaVector(mesh, t)) > 1e-9 * longest);
 }
 
 void requireUsable(const Mesh& mesh, const std::string& source) {
@@ -161,6 +152,30 @@ float facetedPart(const Mesh& mesh) {
   return area > 0 ? float(evenArea / area) : 0;
 }
 
+// Sets the numbers of edges that are not as in a closed mesh.
+template <class Counts>
+void countEdges(const MeshEdges& edges, Counts& counts) {
+  counts.boundaryEdges = counts.nonManifoldEdges = counts.flippedEdges = 0;
+  for (std::size_t edge = 0; edge < edges.count(); ++edge) {
+    const auto sides = edges.sidesOf(edge);
+    counts.boundaryEdges += sides.size() == 1;
+    counts.nonManifoldEdges += sides.size() > 2;
+    counts.flippedEdges += sides.size() == 2 && edges.runAlike(sides[0], sides[1]);
+  }
+}
+
+// Edges are found anew only where something was mended.
+void mendFaces(Mesh& mesh, Faces faces) {
+  std::vector<uint32_t> joined = joinEqualPositions(mesh.positions);
+  MeshEdges edges(mesh.triangles, joined);
+  if (closeSeams(mesh, edges, joined)) edges = MeshEdges(mesh.triangles, joined);
+  if (dropRepeatedTriangles(mesh, edges, joined)) edges = MeshEdges(mesh.triangles, joined);
+  countEdges(edges, mesh.findings);
+  mesh.isClosed = mesh.findings.boundaryEdges == 0 && mesh.findings.nonManifoldEdges == 0;
+  if (orientParts(mesh, edges, faces))
+    countEdges(MeshEdges(mesh.triangles, joinEqualPositions(mesh.positions)), mesh.findings);
+}
+
 }  // namespace
 
 std::vector<uint32_t> joinEqualPositions(const std::vector<vec3>& positions) {
@@ -176,26 +191,11 @@ std::vector<uint32_t> joinEqualPositions(const std::vector<vec3>& positions) {
 MeshTopology meshTopology(const Mesh& mesh) {
   const std::vector<uint32_t> joined = joinEqualPositions(mesh.positions);
   MeshTopology topology;
-  std::vector<std::pair<uint64_t, int>>
-      edges;  // both ends, smaller first; +1 or -1 for the way the face runs
-  edges.reserve(3 * mesh.triangles.size());
+  countEdges(MeshEdges(mesh.triangles, joined), topology);
   for (const uvec3 t : mesh.triangles) {
-    const std::array<uint32_t, 3> v{joined[t.x], joined[t.y], joined[t.z]};
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const uint32_t a = v[k], b = v[(k + 1) % 3];
-      edges.emplace_back(uint64_t{std::min(a, b)} << 32 | std::max(a, b), a < b ? 1 : -1);
-    }
+    if (joined[t.x] == joined[t.y] || joined[t.y] == joined[t.z] || joined[t.z] == joined[t.x]) continue;
     topology.area += glm::length(areaVector(mesh, t));
     topology.signedVolume += glm::dot(dvec3(mesh.positions[t.x]), areaVector(mesh, t)) / 3;
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    int turns = 0;
-    while (end < edges.size() && edges[end].first == edges[begin].first) turns += edges[end++].second;
-    if (end - begin == 1) ++topology.boundaryEdges;
-    if (end - begin > 2) ++topology.nonManifoldEdges;
-    if (end - begin == 2 && turns != 0) ++topology.flippedEdges;
   }
   return topology;
 }
@@ -205,14 +205,14 @@ void checkMesh(const Mesh& mesh, const std::string& source) {
   requireFinished(mesh, source);
 }
 
-void finishMesh(Mesh& mesh, const std::string& source) {
+void finishMesh(Mesh& mesh, const std::string& source, Faces faces) {
   requireUsable(mesh, source);
   if (!hasUsableNormals(mesh)) mesh.normals.clear();
   for (vec3& n : mesh.normals) n = glm::normalize(n);
-  const std::size_t given = mesh.triangles.size();
   // A flat triangle between three different vertices still holds its neighbors together, so the mesh is
   // judged before it goes.
-  mesh.isClosed = meshTopology(mesh).isClosed();
+  mendFaces(mesh, faces);
+  const std::size_t given = mesh.triangles.size();
   std::erase_if(mesh.triangles, [&](uvec3 t) { return hasNoArea(mesh, t); });
   mesh.droppedTriangles += static_cast<uint32_t>(given - mesh.triangles.size());
   if (mesh.triangles.empty()) throw InputError(source + ": every triangle of the mesh has zero area");

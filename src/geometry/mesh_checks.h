@@ -28,10 +28,12 @@ MeshTopology meshTopology(const Mesh& mesh);
 std::vector<uint32_t> joinEqualPositions(const std::vector<vec3>& positions);
 
 // Makes a mesh ready for use. Checks that indices are in range and positions are finite. Merges equal
-// vertices. Removes vertices that are not used and triangles without an area (counted in droppedTriangles).
-// Sets isClosed and facetedPart. Normalizes the normals; where they are not usable, averages new ones by area
-// from the faces at equal positions. Throws InputError; the message begins with `source`.
-void finishMesh(Mesh& mesh, const std::string& source);
+// vertices, also across seams that are open only by rounding. Removes vertices that are not used, triangles
+// without an area (counted in droppedTriangles) and triangles that stand twice, and turns closed parts that
+// look inward (both counted in findings). Sets isClosed and facetedPart. Normalizes the normals; where they
+// are not usable, averages new ones by area from the faces at equal positions. Throws InputError; the message
+// begins with `source`.
+void finishMesh(Mesh& mesh, const std::string& source, Faces faces = Faces::outward);
 
 // Throws InputError, beginning with `source`, where a mesh is not in the state that finishMesh produces:
 // indices in range, lists of equal length, positions finite, normals unit.

@@ -70,8 +70,9 @@ Mesh simplified(const Mesh& mesh, uint32_t vertices, const std::string& where) {
     const uint32_t a = next(), b = next(), c = next();
     result.triangles.emplace_back(a, b, c);
   }
-  finishMesh(result, where);
-  result.droppedTriangles += mesh.droppedTriangles;
+  result.findings = mesh.findings;
+  result.droppedTriangles = mesh.droppedTriangles;
+  finishMesh(result, where, Faces::asGiven);
   return result;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "geometry/mesh_checks.h"
 #include "lights/light_intensity.h"
 #include "scene/checks.h"
 #include "scene/framing.h"
@@ -32,25 +31,26 @@ std::size_t trianglesAgainstNormals(const Mesh& mesh) {
   }));
 }
 
-void judgeSurface(const Mesh& mesh, const MeshTopology& topology, CasterReport& report) {
+void judgeSurface(const Mesh& mesh, CasterReport& report) {
+  const MeshFindings& found = mesh.findings;
   auto& obstacles = report.obstacles;
-  if (!mesh.isClosed && topology.boundaryEdges > 0) {
+  if (!mesh.isClosed && found.boundaryEdges > 0) {
     obstacles.push_back("its mesh is open (" +
-                        counted(topology.boundaryEdges, "boundary edge", "boundary edges") +
+                        counted(found.boundaryEdges, "boundary edge", "boundary edges") +
                         "): light that goes in does not come out by a surface everywhere");
   }
-  if (topology.nonManifoldEdges > 0) {
+  if (found.nonManifoldEdges > 0) {
     obstacles.push_back("its mesh has " +
-                        counted(topology.nonManifoldEdges, "non-manifold edge", "non-manifold edges") +
+                        counted(found.nonManifoldEdges, "non-manifold edge", "non-manifold edges") +
                         " with more than two faces: inside and outside are not told apart there");
   }
-  if (topology.flippedEdges > 0) {
-    obstacles.push_back(counted(topology.flippedEdges, "edge", "edges") +
+  if (found.flippedEdges > 0) {
+    obstacles.push_back(counted(found.flippedEdges, "edge", "edges") +
                         " of its mesh have faces that run against each other: some are turned inside out");
   }
-  if (mesh.isClosed && topology.signedVolume < 0) {
-    obstacles.push_back("its faces look inward (signed volume " + std::to_string(topology.signedVolume) +
-                        " m^3): turn them round");
+  if (found.inwardParts > 0) {
+    report.notes.push_back(counted(found.inwardParts, "closed part looks", "closed parts look") +
+                           " inward, as given");
   }
   const std::size_t against = trianglesAgainstNormals(mesh);
   if (against > 0) {
@@ -103,14 +103,13 @@ void judgeLight(const Scene& scene, const Object& object, CasterReport& report) 
 CasterReport judge(const Scene& scene, uint32_t index, bool hasReceiver) {
   const Object& object = scene.objects[index];
   const Mesh& mesh = scene.meshOf(object);
-  const MeshTopology topology = meshTopology(mesh);
   CasterReport report;
   report.object = index;
-  report.boundaryEdges = topology.boundaryEdges;
-  report.nonManifoldEdges = topology.nonManifoldEdges;
+  report.boundaryEdges = mesh.findings.boundaryEdges;
+  report.nonManifoldEdges = mesh.findings.nonManifoldEdges;
   // A mirror sends light on from each face by itself, and water is open by its nature.
   if (scene.materialOf(object).type == MaterialType::dielectric && !object.water) {
-    judgeSurface(mesh, topology, report);
+    judgeSurface(mesh, report);
   }
   judgeMaterial(scene.materialOf(object), report);
   judgeLight(scene, object, report);

@@ -41,6 +41,21 @@ TEST_F(SceneFile, ObjectsOfOneFileShareItsMesh) {
   EXPECT_EQ(scene.meshes.size(), 1u);
 }
 
+TEST_F(SceneFile, FacesAreTurnedUnlessTheyAreWantedAsGiven) {
+  write("inward.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+  const std::string object = "[[object]]\nmaterial = \"glass\"\nmesh = \"inward.obj\"\n";
+  const std::string kept = object + "faces = \"as-given\"\n";
+  const Scene scene = load(kMaterials + object + kept + object + "faces = \"outward\"\n" + kept);
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  EXPECT_EQ(scene.objects[2].mesh, scene.objects[0].mesh);
+  EXPECT_EQ(scene.objects[3].mesh, scene.objects[1].mesh);
+  EXPECT_NEAR(meshTopology(scene.meshOf(scene.objects[0])).signedVolume, 1.0 / 6, 1e-6);
+  EXPECT_NEAR(meshTopology(scene.meshOf(scene.objects[1])).signedVolume, -1.0 / 6, 1e-6);
+  expectError(kMaterials + object + "faces = \"inward\"\n", {"scene.toml:10", "faces", "outward"});
+  expectError(kMaterials + "[[object]]\nmaterial = \"glass\"\nshape = \"box\"\nfaces = \"as-given\"\n",
+              {"scene.toml:10", "faces"});
+}
+
 TEST_F(SceneFile, AMeshHasTheVerticesAskedFor) {
   std::ostringstream obj;
   const Mesh ball = makeSphere(1, {.vertices = 6000});

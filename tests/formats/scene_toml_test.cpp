@@ -255,7 +255,7 @@ TEST_F(Diagnosis, SaysWhyThereWillBeNoCaustics) {
   write("inward.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
   const std::string mesh = "[[object]]\nmaterial = \"glass\"\nmesh = ";
   EXPECT_TRUE(mentions(obstacles(mesh + "\"open.obj\"\n" + floor_ + lamp_), "open (3 boundary edges)"));
-  EXPECT_TRUE(mentions(obstacles(mesh + "\"inward.obj\"\n" + floor_ + lamp_), "inward"));
+  EXPECT_TRUE(obstacles(mesh + "\"inward.obj\"\n" + floor_ + lamp_).empty());
   EXPECT_TRUE(mentions(obstacles(ball_ + floor_), "no light"));
   EXPECT_TRUE(mentions(obstacles(ball_ + lamp_), "receives"));
   EXPECT_TRUE(mentions(
