@@ -21,6 +21,7 @@ struct MeshFindings {
   uint32_t turnedParts = 0;        // closed parts that were turned, in whole or in part
   uint32_t turnedTriangles = 0;    // of them
   uint32_t inwardParts = 0;        // closed parts that look inward, and were left so
+  uint32_t splitVertices = 0;      // added at creases that normals went smoothly over
 };
 
 // Triangles in the object's own space, counterclockwise from outside. All arrays but `triangles` are per

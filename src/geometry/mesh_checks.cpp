@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "geometry/creases.h"
 #include "geometry/mesh_edges.h"
 #include "geometry/mesh_repairs.h"
 #include "geometry/triangle_area.h"
@@ -218,6 +219,7 @@ void finishMesh(Mesh& mesh, const std::string& source, Faces faces) {
   if (mesh.triangles.empty()) throw InputError(source + ": every triangle of the mesh has zero area");
   mergeEqualVertices(mesh);
   if (mesh.normals.empty()) averageNormals(mesh);
+  if (!mesh.isCurved) mesh.findings.splitVertices = splitAtCreases(mesh);
   mesh.facetedPart = facetedPart(mesh);
   mesh.isFinished = true;
 }

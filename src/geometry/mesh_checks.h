@@ -31,7 +31,8 @@ std::vector<uint32_t> joinEqualPositions(const std::vector<vec3>& positions);
 // vertices, also across seams that are open only by rounding. Removes vertices that are not used, triangles
 // without an area (counted in droppedTriangles) and triangles that stand twice, and turns closed parts that
 // look inward (both counted in findings). Sets isClosed and facetedPart. Normalizes the normals; where they
-// are not usable, averages new ones by area from the faces at equal positions. Throws InputError; the message
+// are not usable, averages new ones by area from the faces at equal positions. Unless isCurved is set, gives
+// the two sides of creases normals of their own (counted in findings). Throws InputError; the message
 // begins with `source`.
 void finishMesh(Mesh& mesh, const std::string& source, Faces faces = Faces::outward);
 

@@ -26,8 +26,8 @@ uint32_t flatSegmentsOf(Density density, const Count& count) {
 
 Mesh finished(Mesh mesh, const char* name) {
   mesh.name = name;
-  finishMesh(mesh, name);
   mesh.isCurved = true;
+  finishMesh(mesh, name);
   return mesh;
 }
 

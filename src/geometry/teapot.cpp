@@ -275,8 +275,8 @@ Mesh makeTeapot(float size, Density density) {
   const Box box = boundingBox(mesh);
   const float scale = size / box.longestSide();
   for (vec3& p : mesh.positions) p = scale * (p - box.center());
-  finishMesh(mesh, mesh.name);
   mesh.isCurved = true;
+  finishMesh(mesh, mesh.name);
   return mesh;
 }
 

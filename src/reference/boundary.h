@@ -54,15 +54,13 @@ class Boundaries {
  private:
   bool crossDielectric(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
                        Path& path) const;
-  bool crossThinWall(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
-                     Path& path) const;
-  bool reflect(const Hit& hit, Carried carried, Path& path) const;
+  void crossThinWall(const Hit& hit, const Band& band, Choice choice, float u, Path& path) const;
+  void reflect(const Hit& hit, Path& path) const;
   float indexIn(uint32_t object, const Band& band) const;
 
   const RayScene& rays_;
   std::vector<const Material*> materials_;  // of the objects
   std::vector<vec3> extinctions_;           // of the objects
-  std::vector<bool> isCurved_;              // their meshes
   const std::optional<Medium>& air_;
 };
 

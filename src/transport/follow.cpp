@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scene/volume.h"
-#include "transport/crossing.h"
+#include "trace/crossing.h"
 
 namespace nephroid {
 namespace {
@@ -34,7 +34,7 @@ struct Walk {
 
 // Light that meets a dielectric boundary goes on along `walk`. False: it is lost.
 bool crossDielectric(const std::vector<const Material*>& materials, const FollowSettings& settings,
-                     const Hit& hit, const MediaSides& sides, vec3 normal, Walk& walk) {
+                     const Hit& hit, const MediaSides& sides, Walk& walk) {
   OutgoingRay& ray = walk.ray;
   const uint32_t object = hit.object;
   const uint32_t patch = hit.patch;
@@ -47,20 +47,19 @@ bool crossDielectric(const std::vector<const Material*>& materials, const Follow
   }
   const float eta =
       iorOf(materials, walk.media.top(), settings.channel) / iorOf(materials, beyond.top(), settings.channel);
-  const float reflectance = fresnelReflectance(std::min(1.0f, -dot(ray.direction, normal)), eta);
-  vec3 transmitted;
-  const bool canTransmit = refractDirection(ray.direction, normal, eta, transmitted);
+  const Bend bend = bendAt(ray.direction, hit.normal, hit.geometricNormal, eta);
+  const bool canTransmit = bend.reflectance < 1;
   if (!canTransmit && settings.paths == Paths::transmission) return false;
   const bool planned = canTransmit && ((settings.reflections >> walk.choices) & 1u);
   if (canTransmit) ++walk.choices;
   if (planned || !canTransmit) {
-    ray.direction = reflectDirection(ray.direction, normal);
-    ray.transmittance *= reflectance;
+    ray.direction = bend.reflected;
+    ray.transmittance *= bend.reflectance;
     ray.signature = extendSignature(ray.signature, object, patch, Event::reflected);
     return true;
   }
-  ray.direction = transmitted;
-  ray.transmittance *= (1 - reflectance) * (settings.isSight ? eta * eta : 1.0f);
+  ray.direction = bend.transmitted;
+  ray.transmittance *= (1 - bend.reflectance) * (settings.isSight ? eta * eta : 1.0f);
   ray.signature = extendSignature(ray.signature, object, patch, entering ? Event::entered : Event::left);
   walk.media = beyond;
   return true;
@@ -103,16 +102,17 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
   hit.geometricNormal = entry.geometricNormal;
   for (uint32_t crossing = 0; crossing < kMaximumCrossings; ++crossing) {
     const Material& material = *materials_[hit.object];
-    const vec3 normal = facingNormal(ray.direction, hit.normal, hit.geometricNormal);
     ray.position = hit.position;
     if (material.type == MaterialType::mirror) {
-      ray.direction = reflectDirection(ray.direction, normal);
+      bool isFlat = false;
+      ray.direction = reflectedBy(ray.direction, hit.normal, hit.geometricNormal, isFlat);
       ray.transmittance *= material.color;
       ray.signature = extendSignature(ray.signature, hit.object, hit.patch, Event::reflected);
     } else if (material.thinWalled) {
+      const vec3 normal = facingNormal(ray.direction, hit.normal, hit.geometricNormal);
       crossThinWall(material, settings, hit.object, hit.patch, normal, walk);
     } else if (!crossDielectric(materials_, settings, hit, sidesOf(rays_, walk.media, hit, ray.direction),
-                                normal, walk)) {
+                                walk)) {
       ray.flags |= kRayLost;
       return ray;
     }

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "trace/crossing.h"
 #include "trace/ray_scene.h"
-#include "transport/crossing.h"
 #include "transport/outgoing_ray.h"
 #include "transport/source.h"
 

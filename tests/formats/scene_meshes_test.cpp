@@ -102,17 +102,33 @@ TEST_F(SceneFile, WaterMovesWithTime) {
 // Seams of texture coordinates must not crease what is smooth.
 TEST_F(SceneFile, NormalsOfAnObjAreAveragedByAreaAcrossSeams) {
   write("t.obj",
-        "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 1\nf 1/1 3/1 2/1\nf 1/2 2/2 4/2\nf 1/1 4/2 3/1\nf "
-        "2/1 3/2 4/1\n");
+        "v 0 0 0.2\nv 2 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/2 4/2\n"
+        "f 1/1 4/2 5/1\nf 1/1 5/2 2/1\n");
   const Scene scene = load(kMaterials + "[[object]]\nmaterial = \"glass\"\nmesh = \"t.obj\"\n");
   const Mesh& mesh = scene.meshes[0];
-  ASSERT_EQ(mesh.positions.size(), 4u);
-  // Twice the areas of the faces around the origin: z 2, y 2, x 1.
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (mesh.positions[i] == vec3(0)) {
-      EXPECT_LT(glm::distance(mesh.normals[i], glm::normalize(vec3(-1, -2, -2))), 1e-6f);
+  ASSERT_EQ(mesh.positions.size(), 5u);
+  // The areas of the faces around the top, doubled: (0.2, 0.4, 2) with y of either sign, and (-0.2, 0.2, 1)
+  // with y of either sign.
+  for (std::size_t i = 0; i < 5; ++i) {
+    if (mesh.positions[i].z > 0) {
+      EXPECT_LT(distance(mesh.normals[i], vec3(0, 0, 1)), 1e-6f);
     }
   }
+}
+
+// A cube whose corners are joined has the six sides that it shows; a low roof stays smooth.
+TEST_F(SceneFile, NormalsGoNoFurtherThanACrease) {
+  write("t.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nvn -1 -1 -1\nvn 1 -1 -1\n"
+        "vn 1 1 -1\nvn -1 1 -1\nvn -1 -1 1\nvn 1 -1 1\nvn 1 1 1\nvn -1 1 1\nf 4//4 3//3 2//2 1//1\n"
+        "f 5//5 6//6 7//7 8//8\nf 1//1 2//2 6//6 5//5\nf 2//2 3//3 7//7 6//6\nf 3//3 4//4 8//8 7//7\n"
+        "f 4//4 1//1 5//5 8//8\n");
+  const Scene scene = load(kMaterials + "[[object]]\nmaterial = \"glass\"\nmesh = \"t.obj\"\n");
+  const Mesh& mesh = scene.meshes[0];
+  EXPECT_EQ(mesh.positions.size(), 24u);
+  EXPECT_EQ(mesh.findings.splitVertices, 16u);
+  EXPECT_TRUE(mesh.isFaceted());
+  EXPECT_TRUE(mesh.isClosed);
 }
 
 TEST_F(SceneFile, NormalsOfAnObjAreKeptWhereItHasThem) {
@@ -176,7 +192,7 @@ TEST_F(SceneFile, APlyMeshReadsLikeItsObj) {
         "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
   const Scene scene = load(kMaterials + "[[object]]\nmaterial = \"glass\"\nmesh = \"t.ply\"\n");
   EXPECT_TRUE(scene.meshes[0].isClosed);
-  EXPECT_EQ(scene.meshes[0].positions.size(), 4u);
+  EXPECT_EQ(scene.meshes[0].positions.size(), 12u);  // each of its faces has a normal of its own
   EXPECT_NEAR(meshTopology(scene.meshes[0]).signedVolume, 1.0 / 6, 1e-6);
 }
 

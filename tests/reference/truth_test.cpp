@@ -78,7 +78,9 @@ void expectWithinBothSpreads(const Scene& scene, const Answer& answer) {
     // The mean square of z is 1; more, as the answer's photons need not all weigh the same.
     EXPECT_LT(squares / blocks, 1.5);
   } else {
-    EXPECT_NEAR(fluxError, 0, 0.01);
+    // The answer lost the photons that a smooth normal sent through the mesh. Of the cow's a fiftieth more
+    // land when none is lost, of the bunny's fewer.
+    EXPECT_NEAR(fluxError, 0, answer.paths == Paths::all ? 0.025 : 0.01);
   }
 }
 

@@ -290,6 +290,10 @@ bool LightSheets::isElsewhere(const Sheet& sheet) const {
   return ended < sheet.generation && (sheet.aside >> ended) != 0;
 }
 
+bool LightSheets::isFacetedAt(const PathNode& node) const {
+  return node.object != kNone && scene_.meshOf(scene_.objects[node.object]).isFaceted();
+}
+
 void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed, Progress& progress) {
   std::vector<Sheet>&mixed = memory_.mixed, &next = memory_.next;
   while (!sheets.empty()) {
@@ -303,7 +307,9 @@ void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed,
         continue;
       }
       const PathNode& node = tree.nodes[sheet.node[0]];
-      if (node.state == PathState::atCaster) {
+      if (node.state == PathState::atCaster && node.generation >= kMostOfSheet && sheet.cuts != kWhole) {
+        giveToOne(sheet, next);
+      } else if (node.state == PathState::atCaster) {
         expand(sheet, next);
       } else if (isElsewhere(sheet)) {
         continue;
@@ -328,19 +334,22 @@ void LightSheets::expand(const Sheet& sheet, std::vector<Sheet>& children) {
   const uint32_t ways = tree.waysFrom(node);
   // A sheet whose paths turned out to be at an earlier boundary goes on from there.
   const uint8_t generation = node.generation;
+  const float spread = isFacetedAt(node) ? 1 : kSpreadAtBoundary;
   for (const uint8_t way : {kTransmitted, kReflected}) {
     if (!(ways >> way & 1u)) continue;
     if (generation < sheet.generation && uint8_t(sheet.path >> generation & 1u) != way && ways == 3u)
       continue;
     Sheet& child = children.emplace_back(sheet);
     child.generation = uint8_t(generation + 1);
-    const uint64_t below = (uint64_t{1} << generation) - 1;
-    child.path = (sheet.path & below) | uint64_t(way) << generation;
-    const bool isFirst = way == kTransmitted || !(ways & 1u);
-    child.aside = (sheet.aside & below) | uint64_t(!isFirst) << generation;
+    if (generation < kMostOfSheet) {
+      const uint64_t below = (uint64_t{1} << generation) - 1;
+      child.path = (sheet.path & below) | uint64_t(way) << generation;
+      const bool isFirst = way == kTransmitted || !(ways & 1u);
+      child.aside = (sheet.aside & below) | uint64_t(!isFirst) << generation;
+    }
     if (sheet.cuts == kWhole) {
       child.node[0] = child.node[1] = child.node[2] = tree.childOf(sheet.node[0], way, memory_.fresh);
-      child.bend *= kSpreadAtBoundary;
+      child.bend *= spread;
     } else {
       for (uint32_t& at : child.node) at = tree.childOf(at, way, memory_.fresh);
     }

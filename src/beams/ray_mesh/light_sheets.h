@@ -119,6 +119,7 @@ class LightSheets {
   void clip(std::span<const Sheet> mixed, std::vector<Sheet>& next);
   void giveToOne(const Sheet& sheet, std::vector<Sheet>& next);
   bool isElsewhere(const Sheet& sheet) const;
+  bool isFacetedAt(const PathNode& node) const;
   float lightestParted(const Sheet& sheet) const;
   float mostCarried(const Sheet& sheet) const;
 

@@ -115,9 +115,10 @@ void LightSheets::giveToOne(const Sheet& sheet, std::vector<Sheet>& next) {
   const auto begin = [&](int i) {
     return tree.nodes[firstOfCorner_[tree.nodes[sheet.node[i]].corner]].position;
   };
-  // Light from a curved surface is the wider the more boundaries it has met.
-  one.bend = 0.5f * distance(begin((corner + 1) % 3), begin((corner + 2) % 3)) *
-             std::pow(2.0f, float(std::max(int(sheet.generation) - 1, 0)));
+  // Light from a curved surface is the wider the more boundaries it has met; facets leave it as it is.
+  const int spreading =
+      isFacetedAt(tree.nodes[sheet.node[0]]) ? 0 : std::clamp(int(sheet.generation) - 1, 0, 30);
+  one.bend = 0.5f * distance(begin((corner + 1) % 3), begin((corner + 2) % 3)) * float(1 << spreading);
   for (int j = 0; j < 3; ++j) {
     one.node[j] = sheet.node[corner];
     one.weights[j] = sheet.weights[corner];

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "core/index_range.h"
 #include "scene/air.h"
 #include "scene/volume.h"
-#include "transport/crossing.h"
+#include "trace/crossing.h"
 #include "transport/outgoing_ray.h"
 
 namespace nephroid {
@@ -29,6 +30,15 @@ uint32_t signatureOf(uint32_t before, const PathNode& node, bool tellsSurface = 
        {uint32_t(node.state), tellsObject ? node.object : 0, isAtCaster || tellsSurface ? node.patch : 0,
         uint32_t(isAtCaster && entersAt(node))})
     signature = (signature ^ (word + 0x9e3779b9u)) * 16777619u;  // FNV-1a, a word at a time
+  return signature;
+}
+
+// What bends by the triangle's own normal parts from its neighbors on other triangles.
+uint32_t beforeFlat(const PathNode& from, const PathNode& node) {
+  if (!node.isFlat) return from.signature;
+  uint32_t signature = from.signature;
+  for (int i = 0; i < 3; ++i)
+    signature = (signature ^ std::bit_cast<uint32_t>(from.geometricNormal[i])) * 16777619u;
   return signature;
 }
 
@@ -98,32 +108,32 @@ uint32_t PathTree::addFirst(const PathNode& node, std::span<const Touching> touc
 void PathTree::bendOne(PathNode& node) const {
   const PathNode& from = nodes[node.parent];
   const Material& material = *materials_[from.object];
-  const vec3 normal = facingNormal(from.direction, from.normal, from.geometricNormal);
   node.direction = from.direction;
   node.transmittance = from.transmittance;
   if (material.type == MaterialType::mirror) {
-    node.direction = reflectDirection(from.direction, normal);
+    node.direction = reflectedBy(from.direction, from.normal, from.geometricNormal, node.isFlat);
     node.transmittance *= material.color;
     return;
   }
   if (material.thinWalled) {
+    const vec3 normal = facingNormal(from.direction, from.normal, from.geometricNormal);
     node.transmittance *= thinWallTransmittance(material, node.channel, from.direction, normal);
     return;
   }
   const uint32_t before = mediaTable_.top(from.before), beyond = mediaTable_.top(from.beyond);
   if (before == beyond) return;
   const float eta = iorOf(materials_, before, node.channel) / iorOf(materials_, beyond, node.channel);
-  const float reflectance = fresnelReflectance(std::min(1.0f, -dot(from.direction, normal)), eta);
+  const Bend bend = bendAt(from.direction, from.normal, from.geometricNormal, eta);
   if (node.way == kReflected) {
-    node.direction = reflectDirection(from.direction, normal);
-    node.transmittance *= reflectance;
+    node.direction = bend.reflected;
+    node.isFlat = bend.isFlatReflected;
+    node.transmittance *= bend.reflectance;
     return;
   }
-  vec3 transmitted;
-  const bool isTransmitted = refractDirection(from.direction, normal, eta, transmitted);
-  node.direction = transmitted;
-  node.transmittance *= isTransmitted ? 1 - reflectance : 0;
-  if (!isTransmitted) {
+  node.direction = bend.transmitted;
+  node.isFlat = bend.isFlatTransmitted;
+  node.transmittance *= 1 - bend.reflectance;
+  if (bend.reflectance >= 1) {
     node.state = PathState::lost;
     node.signature = signatureOf(from.signature, node);
   }
@@ -152,7 +162,7 @@ void PathTree::finish(PathNode& node, const Ray& ray, const Hit& hit) const {
     node.geometricNormal = hit.geometricNormal;
     node.patch = hit.patch;
     node.transmittance *= leftAfter(node.medium, ray.origin, ray.direction, hit.distance);
-    node.state = node.generation < kMaximumCrossings ? PathState::atCaster : PathState::lost;
+    node.state = node.generation < kMostBoundaries ? PathState::atCaster : PathState::lost;
     return;
   }
   const uint32_t medium = mediaTable_.top(node.medium);
@@ -207,7 +217,7 @@ void PathTree::trace(std::span<const uint32_t> bent) {
           joints_.push_back({bent[first + i], hits[i].touching, hits[i].touchingCount});
         const bool tellsSurface =
             node.state == PathState::arrived && !target_.isPlane && hasFewFaces_[node.object];
-        node.signature = signatureOf(nodes[node.parent].signature, node, tellsSurface);
+        node.signature = signatureOf(beforeFlat(nodes[node.parent], node), node, tellsSurface);
       }
     }
   });

@@ -15,6 +15,10 @@
 
 namespace nephroid {
 
+// Boundaries that a path may meet before it is given up as trapped, and those that a sheet of light may meet
+// before it is followed on by one path alone.
+inline constexpr uint8_t kMostBoundaries = 240, kMostOfSheet = 48;
+
 inline constexpr uint8_t kTransmitted = 0, kReflected = 1;
 
 enum class PathState : uint8_t {
@@ -49,6 +53,7 @@ struct PathNode {
   uint32_t signature = 0;  // equal for paths that met the same smooth surfaces one after the other
   PathState state = PathState::ahead;
   bool isQueued = false;  // to be traced
+  bool isFlat = false;    // it was bent by the triangle's own normal
 };
 
 // Where light is wanted: on opaque surfaces, or on a plane that blocks nothing.

@@ -1,0 +1,69 @@
+// What a boundary between two media does to light, for all that follows it.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "optics/refraction.h"
+#include "scene/scene.h"
+
+namespace nephroid {
+
+// Boundaries a ray may cross before it is given up as trapped.
+inline constexpr uint32_t kMaximumCrossings = 48;
+
+// The smooth normal on the side the light comes from; the geometric one where the smooth one faces away from
+// the light.
+inline vec3 facingNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
+  const float side = dot(direction, geometricNormal) < 0 ? 1.0f : -1.0f;
+  return dot(direction, side * normal) < 0 ? side * normal : side * geometricNormal;
+}
+
+// Where light goes on from a boundary. Smooth normals stand for a surface that the triangles are near to;
+// they count as far as the triangles allow: one that would send light through the surface, or back where it
+// should go through, gives way to the triangle's own, so that no light is lost.
+struct Bend {
+  vec3 reflected{0};                                        // unit
+  vec3 transmitted{0};                                      // unit
+  float reflectance = 1;                                    // 0..1; 1: nothing is transmitted
+  bool isFlatReflected = false, isFlatTransmitted = false;  // it goes by the triangle's own normal
+};
+
+// `direction`: unit, of the light that arrives.
+inline vec3 reflectedBy(vec3 direction, vec3 normal, vec3 geometricNormal, bool& isFlat) {
+  const vec3 geometric = dot(direction, geometricNormal) < 0 ? geometricNormal : -geometricNormal;
+  const vec3 reflected = reflectDirection(direction, facingNormal(direction, normal, geometricNormal));
+  isFlat = dot(reflected, geometric) <= 0;
+  return isFlat ? reflectDirection(direction, geometric) : reflected;
+}
+
+// `eta`: the index of refraction on the side that light comes from, over that on the other.
+inline Bend bendAt(vec3 direction, vec3 normal, vec3 geometricNormal, float eta) {
+  const vec3 geometric = dot(direction, geometricNormal) < 0 ? geometricNormal : -geometricNormal;
+  vec3 facing = facingNormal(direction, normal, geometricNormal);
+  Bend bend;
+  bend.reflected = reflectedBy(direction, normal, geometricNormal, bend.isFlatReflected);
+  bool isTransmitted = refractDirection(direction, facing, eta, bend.transmitted);
+  if (isTransmitted && dot(bend.transmitted, geometric) >= 0) {
+    bend.isFlatTransmitted = true;
+    facing = geometric;
+    isTransmitted = refractDirection(direction, facing, eta, bend.transmitted);
+  }
+  if (isTransmitted) bend.reflectance = fresnelReflectance(std::min(1.0f, -dot(direction, facing)), eta);
+  return bend;
+}
+
+// Of the object that fills a place; kNone is air.
+inline float iorOf(std::span<const Material* const> materials, uint32_t object, uint32_t channel) {
+  return object == kNone ? 1.0f : materials[object]->ior[int(channel)];
+}
+
+// What a sheet too thin to bend light lets through: both its faces, multiple reflections between them
+// included. `normal` faces the light.
+inline vec3 thinWallTransmittance(const Material& material, uint32_t channel, vec3 direction, vec3 normal) {
+  const float reflectance =
+      fresnelReflectance(std::min(1.0f, -dot(direction, normal)), 1 / material.ior[int(channel)]);
+  return material.color * ((1 - reflectance) / (1 + reflectance));
+}
+
+}  // namespace nephroid
