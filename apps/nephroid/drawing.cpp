@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "formats/load.h"
+#include "report/missing_light.h"
 #include "techniques/registry.h"
 
 namespace nephroid {
@@ -26,6 +27,8 @@ std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& devic
     progress.advance();
   }
   progress.finish();
+  if (techniqueNamed(request.settings.technique.technique).traits.drawsCaustics)
+    stats.notes = missingLight(scene, stats.budget);
   stats.memoryBytes = std::max(stats.memoryBytes, device.memoryBytes());
   use(renderer);
   return times;

@@ -11,6 +11,7 @@
 #include "reference/sensor.h"
 #include "refining.h"
 #include "render/technique_meter.h"
+#include "report/missing_light.h"
 #include "techniques/registry.h"
 #include "transport/scene_transport.h"
 #include "transport/traced/traced_source.h"
@@ -74,6 +75,8 @@ void measureReference(const MeasureOptions& options) {
   const Stopwatch preparing;
   const Scene scene = loadScene(options.scene, options.time);
   const Sensor& sensor = sensorNamed(scene, options.sensor);
+  warnOf(scene, stats);
+  stats.notes = missingLight(scene, std::nullopt, &sensor);
   const RayScene rays(scene);
   const ReferenceSettings settings = referenceSettings(options.reference, options.picture, sensor.resolution);
   ReferenceSensor counter(scene, rays, sensor, settings);
@@ -105,6 +108,7 @@ void runMeasure(const MeasureOptions& options) {
   const Stopwatch preparing;
   const Scene scene = loadScene(options.scene, options.time);
   const Sensor& sensor = sensorNamed(scene, options.sensor);
+  warnOf(scene, stats);
   const RayScene rays(scene);
   std::optional<gpu::Device> device;
   CausticsMeter caustics;
@@ -126,6 +130,8 @@ void runMeasure(const MeasureOptions& options) {
 
   const SensorLayer causticsLayer = readRepeatedly(caustics, options.repeat, stats);
   if (device) stats.memoryBytes = device->memoryBytes();
+  if (info.traits.drawsCaustics)
+    for (const std::string& line : missingLight(scene, stats.budget, &sensor)) addLine(stats.notes, line);
 
   const SensorLayer direct = measureDirect(scene, rays, sensor, progress);
   writeExr(options.output, sensorImage(scene, sensor, direct, causticsLayer),
