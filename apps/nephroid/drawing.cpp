@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "beams/source_error.h"
 #include "command.h"
 #include "formats/load.h"
 #include "report/missing_light.h"
@@ -29,6 +30,11 @@ std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& devic
   progress.finish();
   if (techniqueNamed(request.settings.technique.technique).traits.drawsCaustics)
     stats.notes = missingLight(scene, stats.budget);
+  const TransportSettings transported = transportOf(request.settings.technique);
+  if (transported.source == Source::table)
+    if (const auto note = sourceErrorNote(transport.scene(), transport.rayScene(), transport.source(),
+                                          transport.traced(), request.settings.technique.transport.paths))
+      addLine(stats.notes, *note);
   stats.memoryBytes = std::max(stats.memoryBytes, device.memoryBytes());
   use(renderer);
   return times;

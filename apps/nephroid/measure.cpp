@@ -47,7 +47,11 @@ CausticsMeter beamsMeter(const Scene& scene, const RayScene& rays, const Sensor&
   const auto traced = std::make_shared<TracedSource>(scene, rays);
   std::shared_ptr<TransportSource> source = traced;
   const TransportSettings transport = transportOf(settings);
-  if (transport.source == Source::table) source = makeTableSource(scene, transport, *traced, progress);
+  if (transport.source == Source::table) {
+    source = makeTableSource(scene, transport, *traced, progress);
+    if (const auto note = sourceErrorNote(scene, rays, *source, *traced, settings.transport.paths))
+      addLine(stats.notes, *note);
+  }
   return [&, traced, source] {
     return measureBeams(scene, rays, *source, sensor, settings.transport.paths, settings.beams.refineDepth,
                         progress, stats);
