@@ -8,8 +8,8 @@
 
 namespace nephroid {
 
-// What to do with closed parts of a mesh whose faces look inward: turn them, or leave them as they are, for a
-// bubble of air.
+// What to do with closed parts of a mesh whose faces look inward: turn them, or leave them as they are, as
+// cavities within the others.
 enum class Faces { outward, asGiven };
 
 // What finishMesh found in a mesh, and mended.

@@ -58,14 +58,6 @@ bool isGlass(const Scene& scene, const Object& object) {
   return material.type == MaterialType::dielectric && !material.thinWalled;
 }
 
-// A bubble lies in something else; what looks inward by itself lets no light in.
-bool isWithinAnother(const Scene& scene, const Object& object) {
-  const Box own = worldBounds(scene, object);
-  return std::ranges::any_of(scene.objects, [&](const Object& other) {
-    return &other != &object && isGlass(scene, other) && worldBounds(scene, other).holdsInside(own);
-  });
-}
-
 struct Ball {
   vec3 center;
   float radius;
@@ -155,10 +147,11 @@ std::vector<std::string> meshWarnings(const Scene& scene) {
   {
     Lines lines(all);
     forEachMesh(scene, glass, [&](const Object& object, const MeshFindings& found) {
-      if (found.inwardParts > 0 && !isWithinAnother(scene, object) && found.inwardParts == found.closedParts)
-        lines.add(quoted(object.name) +
-                  ": all its faces look inward, as given, so no light gets in; without faces = \"as-given\" "
-                  "they are turned");
+      if (found.inwardParts > 0 && found.inwardParts == found.closedParts)
+        lines.add(
+            quoted(object.name) +
+            ": all its faces look inward, as given, so it makes no caustic; without faces = \"as-given\" "
+            "they are turned, and a bubble in another object is one whose material has an ior of 1");
     });
   }
   {

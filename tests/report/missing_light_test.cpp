@@ -95,16 +95,19 @@ TEST_F(MissingLight, MeshesThatWereMendedAreToldOnce) {
   EXPECT_TRUE(warned(kMaterials + "[[object]]\nmaterial = \"white\"\nmesh = \"inward.obj\"\n").empty());
 }
 
-TEST_F(MissingLight, FacesThatLookInwardAsGivenAreToldUnlessTheyAreABubble) {
-  write("inward.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
-  const std::string bubble =
-      kMaterials + "[[object]]\nmaterial = \"glass\"\nmesh = \"inward.obj\"\nfaces = \"as-given\"\n";
-  ASSERT_EQ(warned(bubble).size(), 1u);
-  expectPart(warned(bubble)[0], "all its faces look inward");
-  EXPECT_TRUE(
-      warned(bubble +
-             "[[object]]\nname = \"block\"\nmaterial = \"glass\"\nshape = \"box\"\nsize = [4, 4, 4]\n")
-          .empty());
+TEST_F(MissingLight, FacesThatAllLookInwardAsGivenAreTold) {
+  const std::string inward = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+  write("inward.obj", inward);
+  // With a part around it, it is a cavity.
+  write("cavity.obj",
+        inward + "v -1 -1 -1\nv 9 -1 -1\nv -1 9 -1\nv -1 -1 9\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n");
+  const auto warnedOf = [&](const std::string& file) {
+    return warned(kMaterials + "[[object]]\nmaterial = \"glass\"\nmesh = \"" + file +
+                  ".obj\"\nfaces = \"as-given\"\n");
+  };
+  ASSERT_EQ(warnedOf("inward").size(), 1u);
+  expectPart(warnedOf("inward")[0], "all its faces look inward");
+  EXPECT_TRUE(warnedOf("cavity").empty());
 }
 
 }  // namespace
