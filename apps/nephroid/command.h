@@ -13,6 +13,7 @@
 #include "core/stats.h"
 #include "core/stopwatch.h"
 #include "render/settings.h"
+#include "scene/scene.h"
 
 namespace nephroid {
 
@@ -94,8 +95,11 @@ const std::string& commandLine();
 // command writes the same bytes.
 std::vector<ImageAttribute> imageAttributes(const PictureSettings& settings, const std::string& unit);
 
-// Tells on standard error where an error that was asked for is not reached, and writes the figures where a
-// file is given.
+// Tells on standard error what was mended in the scene's meshes, or cannot be right; each line once in a run.
+void warnOf(const Scene& scene, Stats& stats);
+
+// Tells on standard error why light is missing and where an error that was asked for is not reached, and
+// writes the figures where a file is given.
 void reportStats(const std::filesystem::path& file, const Stats& stats);
 
 }  // namespace nephroid

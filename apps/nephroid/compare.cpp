@@ -151,6 +151,8 @@ void runCompare(CompareOptions options) {
   checkReportFolder(options.output);
   Progress progress(progressDisplay(options.isQuiet));
   const Scene scene = loadScene(options.scene, options.time);
+  Stats told;
+  warnOf(scene, told);
   gpu::Device device({.device = options.device});
   const RayScene rays(scene);
   const CompareJob job{options, scene, rays, device, progress};

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "beams/source_error.h"
 #include "command.h"
 #include "formats/load.h"
+#include "report/missing_light.h"
 #include "techniques/registry.h"
 
 namespace nephroid {
@@ -26,6 +28,13 @@ std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& devic
     progress.advance();
   }
   progress.finish();
+  if (techniqueNamed(request.settings.technique.technique).traits.drawsCaustics)
+    stats.notes = missingLight(scene, stats.budget);
+  const TransportSettings transported = transportOf(request.settings.technique);
+  if (transported.source == Source::table)
+    if (const auto note = sourceErrorNote(transport.scene(), transport.rayScene(), transport.source(),
+                                          transport.traced(), request.settings.technique.transport.paths))
+      addLine(stats.notes, *note);
   stats.memoryBytes = std::max(stats.memoryBytes, device.memoryBytes());
   use(renderer);
   return times;

@@ -11,6 +11,7 @@
 #include "reference/sensor.h"
 #include "refining.h"
 #include "render/technique_meter.h"
+#include "report/missing_light.h"
 #include "techniques/registry.h"
 #include "transport/scene_transport.h"
 #include "transport/traced/traced_source.h"
@@ -46,7 +47,11 @@ CausticsMeter beamsMeter(const Scene& scene, const RayScene& rays, const Sensor&
   const auto traced = std::make_shared<TracedSource>(scene, rays);
   std::shared_ptr<TransportSource> source = traced;
   const TransportSettings transport = transportOf(settings);
-  if (transport.source == Source::table) source = makeTableSource(scene, transport, *traced, progress);
+  if (transport.source == Source::table) {
+    source = makeTableSource(scene, transport, *traced, progress);
+    if (const auto note = sourceErrorNote(scene, rays, *source, *traced, settings.transport.paths))
+      addLine(stats.notes, *note);
+  }
   return [&, traced, source] {
     return measureBeams(scene, rays, *source, sensor, settings.transport.paths, settings.beams.refineDepth,
                         progress, stats);
@@ -74,6 +79,8 @@ void measureReference(const MeasureOptions& options) {
   const Stopwatch preparing;
   const Scene scene = loadScene(options.scene, options.time);
   const Sensor& sensor = sensorNamed(scene, options.sensor);
+  warnOf(scene, stats);
+  stats.notes = missingLight(scene, std::nullopt, &sensor);
   const RayScene rays(scene);
   const ReferenceSettings settings = referenceSettings(options.reference, options.picture, sensor.resolution);
   ReferenceSensor counter(scene, rays, sensor, settings);
@@ -105,6 +112,7 @@ void runMeasure(const MeasureOptions& options) {
   const Stopwatch preparing;
   const Scene scene = loadScene(options.scene, options.time);
   const Sensor& sensor = sensorNamed(scene, options.sensor);
+  warnOf(scene, stats);
   const RayScene rays(scene);
   std::optional<gpu::Device> device;
   CausticsMeter caustics;
@@ -126,6 +134,8 @@ void runMeasure(const MeasureOptions& options) {
 
   const SensorLayer causticsLayer = readRepeatedly(caustics, options.repeat, stats);
   if (device) stats.memoryBytes = device->memoryBytes();
+  if (info.traits.drawsCaustics)
+    for (const std::string& line : missingLight(scene, stats.budget, &sensor)) addLine(stats.notes, line);
 
   const SensorLayer direct = measureDirect(scene, rays, sensor, progress);
   writeExr(options.output, sensorImage(scene, sensor, direct, causticsLayer),

@@ -6,6 +6,7 @@
 #include "command.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "report/missing_light.h"
 #include "techniques/registry.h"
 
 namespace nephroid {
@@ -124,7 +125,7 @@ void addStats(CLI::App& command, fs::path& stats) {
   command
       .add_option("--stats", stats,
                   "Where to write the figures of the run: device, technique, source, error, left_out, "
-                  "shortfall, prepare_ms, frame_ms, passes, counts, memory_bytes")
+                  "shortfall, notes, prepare_ms, frame_ms, passes, counts, memory_bytes")
       ->type_name("FILE.json");
 }
 
@@ -210,7 +211,15 @@ void checkOutput(const fs::path& file, const fs::path& scene, std::initializer_l
   checkWritable(file);
 }
 
+void warnOf(const Scene& scene, Stats& stats) {
+  const std::size_t told = stats.warnings.size();
+  for (const std::string& line : meshWarnings(scene)) addLine(stats.warnings, line);
+  for (std::size_t i = told; i < stats.warnings.size(); ++i)
+    std::cerr << "nephroid: warning: " << stats.warnings[i] << '\n';
+}
+
 void reportStats(const fs::path& file, const Stats& stats) {
+  for (const std::string& note : stats.notes) std::cerr << "nephroid: note: " << note << '\n';
   if (!stats.shortfall.empty()) std::cerr << "nephroid: note: " << stats.shortfall << '\n';
   if (!file.empty()) writeFileAtomically(file, statsJson(stats));
 }

@@ -9,6 +9,7 @@
 #include "formats/load.h"
 #include "reference/image.h"
 #include "refining.h"
+#include "report/missing_light.h"
 
 namespace nephroid {
 namespace {
@@ -80,6 +81,8 @@ void renderReference(const RenderOptions& options, const std::vector<FrameJob>& 
     common.time = job.time;
     common.output = job.output;
     const Scene scene = loadScene(options.scene, job.time, &waves);
+    warnOf(scene, stats);
+    stats.notes = missingLight(scene, std::nullopt);
     const RayScene rays(scene);
     const ReferenceSettings settings = referenceSettings(options.reference, options.picture, options.size);
     ReferenceImage image(scene, rays, settings);
@@ -96,9 +99,10 @@ void runRender(const RenderOptions& options) {
   if (isReference(options.picture)) return renderReference(options, jobs);
 
   Progress progress(progressDisplay(options.isQuiet));
-  loadScene(options.scene, options.time);  // errors in the scene are reported before a device is opened
-  gpu::Device device({.device = options.device});
   Stats stats;
+  // Errors in the scene are reported before a device is opened.
+  warnOf(loadScene(options.scene, options.time), stats);
+  gpu::Device device({.device = options.device});
   stats.device = device.info().name;
   describeSettings(options.picture, stats);
 

@@ -4,12 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "report/missing_light.h"
 #include "scene/dispersion.h"
 #include "widgets.h"
 
 namespace nephroid {
 namespace {
+
+constexpr ImU32 kWarningColor = IM_COL32(255, 190, 80, 255);
 
 // Ten times the next power of ten: a slider's end that stays where it is while it is drawn.
 float endOfSlider(float value) {
@@ -98,6 +104,16 @@ void drawDielectric(Material& material) {
     material.attenuationDistance = meters > 0 ? meters : std::numeric_limits<float>::infinity();
 }
 
+// What was mended when the scene was loaded, and why light is missing now.
+void drawWarnings(const ViewerState& state) {
+  if (!state.isOpen) return;
+  std::vector<std::string> lines = meshWarnings(state.scene);
+  for (std::string& line : missingLight(state.scene, state.stats.budget)) lines.push_back(std::move(line));
+  ImGui::PushStyleColor(ImGuiCol_Text, kWarningColor);
+  for (const std::string& line : lines) ImGui::TextWrapped("%s", line.c_str());
+  ImGui::PopStyleColor();
+}
+
 }  // namespace
 
 void drawScenePanel(ViewerState& state) {
@@ -108,6 +124,7 @@ void drawScenePanel(ViewerState& state) {
               ? "Drop a .toml, .gltf or .glb file here"
               : state.file.string() + (isSaved ? "" : "\nThere are changes that are not saved"));
   ImGui::TextDisabled("%s", state.device.c_str());
+  drawWarnings(state);
   ImGui::Separator();
 }
 

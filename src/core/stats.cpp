@@ -14,6 +14,10 @@ void setCount(Stats& stats, const std::string& name, uint64_t count) {
   stats.counts.emplace_back(name, count);
 }
 
+void addLine(std::vector<std::string>& lines, const std::string& line) {
+  if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+}
+
 std::string statsJson(const Stats& stats) {
   using Json = nlohmann::ordered_json;
   Json passes = Json::array();
@@ -23,6 +27,8 @@ std::string statsJson(const Stats& stats) {
   for (const auto& [name, count] : stats.counts) counts[name] = count;
   Json settings = Json::object();
   for (const auto& [flag, value] : stats.settings) settings[flag] = value;
+  Json notes = stats.warnings;
+  for (const std::string& note : stats.notes) notes.push_back(note);
   const auto orNull = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   const Json document = {{"schema", "nephroid stats 2"},
                          {"device", stats.device},
@@ -32,6 +38,7 @@ std::string statsJson(const Stats& stats) {
                          {"error", orNull(stats.error)},
                          {"left_out", orNull(stats.leftOut)},
                          {"shortfall", stats.shortfall},
+                         {"notes", notes},
                          {"prepare_ms", stats.prepareMilliseconds},
                          {"frame_ms", stats.frameMilliseconds},
                          {"passes", passes},

@@ -15,6 +15,16 @@ struct PassTime {
   double milliseconds = 0;
 };
 
+// What became of the light onto casters, in lumen of luminance.
+struct LightBudget {
+  double incident = 0;
+  double landed = 0;        // where it is wanted
+  double lost = 0;          // in casters: trapped, or at holes of open ones
+  double shaded = 0;        // stopped by something before the casters
+  double missed = 0;        // by way of casters, but not to where it is wanted
+  bool isLossTold = false;  // what is lost ought not to be; without reflection, it is by definition
+};
+
 struct Stats {
   std::string device;     // the Vulkan device, by its driver's name
   std::string technique;  // "illumination-textures", "none"
@@ -32,14 +42,21 @@ struct Stats {
   // the light that it left out.
   std::optional<double> error, leftOut;
   std::string shortfall;  // a sentence where the error that was asked for is not reached; otherwise empty
+  std::optional<LightBudget> budget;  // of a technique that knows it
+  std::vector<std::string> warnings;  // what was mended in the scene, or cannot be right
+  std::vector<std::string> notes;     // why light is missing, or may be off
 };
+
+// Adds a line that is not there yet.
+void addLine(std::vector<std::string>& lines, const std::string& line);
 
 // Sets a count and replaces the old one of that name.
 void setCount(Stats& stats, const std::string& name, uint64_t count);
 
 // {"schema": "nephroid stats 2", "device", "technique", "source", "settings": {...}, "error", "left_out",
-// "shortfall", "prepare_ms", "frame_ms", "passes": [{"name", "ms"}], "counts": {...}, "memory_bytes"}; error
-// and left_out are null where the technique knows none.
+// "shortfall", "notes": [...], "prepare_ms", "frame_ms", "passes": [{"name", "ms"}], "counts": {...},
+// "memory_bytes"}; the notes begin with the warnings; error and left_out are null where the technique knows
+// none.
 std::string statsJson(const Stats& stats);
 
 // The middle value, or the mean of the middle two where there is an even number. 0 for an empty list.

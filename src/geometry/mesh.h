@@ -8,8 +8,8 @@
 
 namespace nephroid {
 
-// What to do with closed parts of a mesh whose faces look inward: turn them, or leave them as they are, for a
-// bubble of air.
+// What to do with closed parts of a mesh whose faces look inward: turn them, or leave them as they are, as
+// cavities within the others.
 enum class Faces { outward, asGiven };
 
 // What finishMesh found in a mesh, and mended.
@@ -18,8 +18,9 @@ struct MeshFindings {
   uint32_t nonManifoldEdges = 0;   // with more than two
   uint32_t flippedEdges = 0;       // whose two faces run the same way: one of them is turned inside out
   uint32_t repeatedTriangles = 0;  // that stood twice, left out
-  uint32_t turnedParts = 0;        // closed parts that were turned, in whole or in part
-  uint32_t turnedTriangles = 0;    // of them
+  uint32_t closedParts = 0;        // pieces that hang together by edges, with an inside
+  uint32_t turnedParts = 0;        // of them, those that were turned, in whole or in part
+  uint32_t turnedTriangles = 0;    // in those parts
   uint32_t inwardParts = 0;        // closed parts that look inward, and were left so
   uint32_t splitVertices = 0;      // added at creases that normals went smoothly over
 };

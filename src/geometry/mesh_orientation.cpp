@@ -147,6 +147,7 @@ void turnNormals(Mesh& mesh, const MeshParts& parts, const std::vector<bool>& is
 
 bool orientParts(Mesh& mesh, const MeshEdges& edges, Faces faces) {
   const MeshParts parts(mesh, edges);
+  mesh.findings.closedParts = uint32_t(std::ranges::count_if(parts.parts, &Part::hasInside));
   if (faces == Faces::asGiven) {
     mesh.findings.inwardParts = uint32_t(std::ranges::count_if(
         parts.parts, [](const Part& part) { return part.wrongTriangles() == part.triangles; }));

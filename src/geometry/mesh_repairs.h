@@ -16,9 +16,9 @@ namespace nephroid {
 bool closeSeams(Mesh& mesh, const MeshEdges& edges, std::vector<uint32_t>& joined);
 
 // Leaves out triangles that stand twice, and counts them. Of two that face the same way, the later one. Where
-// a whole piece of the mesh has reversed copies, as in a double-sided export, the copies. Between two parts
-// that are glued together, both. A sheet with two sides that is fixed to something else stays. False where
-// there are none.
+// a whole piece of the mesh has reversed copies, as in a double-sided export, those that look inward. Between
+// two parts that are glued together, both. A sheet with two sides that is fixed to something else stays.
+// False where there are none.
 bool dropRepeatedTriangles(Mesh& mesh, const MeshEdges& edges, const std::vector<uint32_t>& joined);
 
 // Turns closed parts whose faces look inward or run against each other, with their normals, and counts them;

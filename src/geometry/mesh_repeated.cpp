@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "geometry/mesh_repairs.h"
+#include "geometry/triangle_area.h"
 
 namespace nephroid {
 namespace {
@@ -130,12 +131,25 @@ class RepeatedTriangles {
     for (uint32_t t = 0; t < count; ++t)
       if (!isRepeated_[t] && !isPaired(t) && pieceHasSides(t)) hasOthers[pieces.of(t)] = true;
     for (const uint32_t t : rims) hasRim[sheets.of(t)] = true;
+    const std::vector<double> volumes = volumesOfFirst(pieces);
     for (uint32_t t = 0; t < count; ++t) {
       if (!isPaired(t)) continue;
       const bool isGlued = hasOthers[pieces.of(t)];
       if (isGlued && hasRim[sheets.of(t)]) continue;
-      isRepeated_[t] = isGlued || reversed_[t] < t;
+      const bool isFirst = t < reversed_[t];
+      isRepeated_[t] = isGlued || isFirst == (volumes[pieces.of(t)] < 0);
     }
+  }
+
+  // m3 that the first of each pair enclose in its piece: negative where they are the ones that look inward.
+  std::vector<double> volumesOfFirst(TriangleSets& pieces) const {
+    std::vector<double> volumes(mesh_.triangles.size(), 0);
+    for (uint32_t t = 0; t < volumes.size(); ++t) {
+      if (!isPaired(t) || reversed_[t] < t) continue;
+      const glm::dvec3 corner = mesh_.positions[mesh_.triangles[t].x];
+      volumes[pieces.of(t)] += glm::dot(corner, areaVector(mesh_, mesh_.triangles[t])) / 3;
+    }
+    return volumes;
   }
 
   // Triangles that use a place twice belong to no piece.

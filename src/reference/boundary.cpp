@@ -7,7 +7,6 @@
 #include "trace/crossing.h"
 
 namespace nephroid {
-namespace {}  // namespace
 
 Boundaries::Boundaries(const Scene& scene, const RayScene& rayScene)
     : rays_(rayScene), materials_(materialsOf(scene)), air_(scene.medium) {

@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "lights/light_intensity.h"
+#include "report/counted.h"
+#include "report/missing_light.h"
 #include "scene/checks.h"
 #include "scene/framing.h"
 
@@ -12,14 +14,6 @@ namespace nephroid {
 namespace {
 
 constexpr double kFoldsOfAScan = 0.01;  // part of all triangles
-
-std::string counted(std::size_t n, const char* singular, const char* plural) {
-  return std::to_string(n) + " " + (n == 1 ? singular : plural);
-}
-
-bool isDark(const Light& light) {
-  return (light.type == LightType::directional ? light.illuminance : light.intensity) == vec3(0);
-}
 
 // Triangles with a vertex normal on the other side than their winding says.
 std::size_t trianglesAgainstNormals(const Mesh& mesh) {
@@ -90,7 +84,8 @@ void judgeLight(const Scene& scene, const Object& object, CasterReport& report) 
   if (bright == 0) {
     report.obstacles.push_back("no light reaches it: the intensity of every light is 0");
   } else if (reaching == 0) {
-    report.obstacles.push_back("no light reaches it: it is outside the cone of every light");
+    report.obstacles.push_back(
+        "no light reaches it: it is outside the cone, or behind the side, of every light");
   }
   for (const Light& light : scene.lights) {
     const bool hasPlace = light.type == LightType::point || light.type == LightType::spot;
@@ -120,11 +115,9 @@ CasterReport judge(const Scene& scene, uint32_t index, bool hasReceiver) {
 
 void warnAboutScene(const Scene& scene, SceneReport& report) {
   auto& warnings = report.warnings;
+  warnings = meshWarnings(scene);
   if (scene.objects.empty()) warnings.push_back("the scene has no objects");
-  if (scene.lights.empty()) warnings.push_back("the scene has no lights");
-  if (report.casters == 0 && !scene.objects.empty()) {
-    warnings.push_back("nothing makes caustics: no object is a dielectric or a mirror");
-  }
+  for (const std::string& line : missingLight(scene, std::nullopt)) warnings.push_back(line);
   if (report.droppedTriangles > 0) {
     warnings.push_back(counted(report.droppedTriangles, "triangle", "triangles") +
                        " without an area left out");
@@ -167,16 +160,6 @@ const char* nameOf(MaterialType type) {
 }
 
 }  // namespace
-
-bool reaches(const Light& light, vec3 center, float radius) {
-  if (isDark(light)) return false;
-  if (light.type != LightType::spot) return true;
-  const vec3 toCenter = center - light.position;
-  const float distance = glm::length(toCenter);
-  if (distance <= radius) return true;
-  const float offAxis = std::acos(glm::clamp(glm::dot(toCenter / distance, light.direction), -1.0f, 1.0f));
-  return offAxis - std::asin(radius / distance) < glm::radians(light.outerAngle);
-}
 
 SceneReport diagnose(const Scene& scene) {
   checkScene(scene);

@@ -31,7 +31,4 @@ SceneReport diagnose(const Scene& scene);
 // The report as lines of text for a reader.
 std::string describe(const Scene& scene, const SceneReport& report);
 
-// Whether the light can reach a ball (m), by its type, strength and cone. Objects in between are ignored.
-bool reaches(const Light& light, vec3 center, float radius);
-
 }  // namespace nephroid

@@ -42,6 +42,7 @@ class SceneTransport {
   const Scene& scene() const { return now_; }
   // The first call loads or builds the tables.
   const TransportSource& source();
+  const TracedSource& traced() const { return traced_; }
   const RayScene& rayScene() const { return rays_; }
   MediumStack mediaAround(const Emitter& emitter) const { return traced_.mediaAround(emitter); }
 

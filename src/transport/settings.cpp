@@ -8,7 +8,8 @@ std::span<const Setting> transportSettings() {
       choiceSetting<&Settings::source>(
           "source",
           "How the rays that leave a caster are found. table: by a light transport table, for smooth glass "
-          "without anything in it, otherwise traced; traced: traced for each frame"),
+          "without anything in it, otherwise traced, and it is told where that is off by more than a tenth; "
+          "traced: traced for each frame"),
       choiceSetting<&Settings::paths>("paths",
                                       "The paths of light that are followed. transmission: refraction only; "
                                       "all: reflection outside and inside casters too",

@@ -148,7 +148,10 @@ TEST(Stats, AreTheDocumentedFields) {
                     1024,
                     0.02,
                     {},
-                    "few beams"};
+                    "few beams",
+                    {},
+                    {"open"},
+                    {"dark"}};
   const auto json = nlohmann::json::parse(statsJson(stats));
   EXPECT_EQ(json["prepare_ms"], 12.5);
   EXPECT_EQ(json["frame_ms"], 3);
@@ -161,7 +164,8 @@ TEST(Stats, AreTheDocumentedFields) {
   EXPECT_EQ(json["error"], 0.02);
   EXPECT_TRUE(json["left_out"].is_null());
   EXPECT_EQ(json["shortfall"], "few beams");
-  EXPECT_EQ(json.size(), 13u);
+  EXPECT_EQ(json["notes"], (nlohmann::json{"open", "dark"}));
+  EXPECT_EQ(json.size(), 14u);
 }
 
 TEST(Stats, MedianIsTheMiddle) {

@@ -56,6 +56,22 @@ TEST_F(SceneFile, FacesAreTurnedUnlessTheyAreWantedAsGiven) {
               {"scene.toml:10", "faces"});
 }
 
+TEST_F(SceneFile, FacesOfAnImportAreTurnedAsWell) {
+  write("inward.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]},
+                  {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+    "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64,)"
+                       "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/"
+                       "AAABAAIAAAADAAEAAAACAAMAAQADAAIA\"}]}");
+  const auto volume = [&](const std::string& more) {
+    return meshTopology(load("[[object]]\nimport = \"inward.gltf\"\n" + more).meshes.at(0)).signedVolume;
+  };
+  EXPECT_NEAR(volume(""), 1.0 / 6, 1e-6);
+  EXPECT_NEAR(volume("faces = \"as-given\"\n"), -1.0 / 6, 1e-6);
+}
+
 TEST_F(SceneFile, AMeshHasTheVerticesAskedFor) {
   std::ostringstream obj;
   const Mesh ball = makeSphere(1, {.vertices = 6000});

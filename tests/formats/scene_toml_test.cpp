@@ -1,5 +1,6 @@
 #include "geometry/mesh_checks.h"
 #include "report/diagnose.h"
+#include "report/missing_light.h"
 #include "scene/framing.h"
 #include "support/photons.h"
 #include "support/scene_file.h"

@@ -317,6 +317,10 @@ void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed,
         landed.push_back(sheet);
       } else if (node.state == PathState::lost) {
         stats.lostFlux += double(luminanceOf(carried(sheet)));
+      } else if (node.state == PathState::dark) {
+        stats.shadedFlux += double(luminanceOf(carried(sheet)));
+      } else if (node.state == PathState::missed) {
+        stats.missedFlux += double(luminanceOf(carried(sheet)));
       }
     }
     traceChildren(next);

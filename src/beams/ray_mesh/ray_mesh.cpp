@@ -20,6 +20,8 @@ void addStats(const RayMeshStats& some, RayMeshStats& all) {
   all.error = all.landedFlux > 0 ? error / all.landedFlux : 0;
   all.droppedFlux += some.droppedFlux;
   all.lostFlux += some.lostFlux;
+  all.shadedFlux += some.shadedFlux;
+  all.missedFlux += some.missedFlux;
   all.singlePaths += some.singlePaths;
   all.bound = std::max(all.bound, some.bound);
   for (std::size_t i = 0; i < kToldLevels; ++i) {

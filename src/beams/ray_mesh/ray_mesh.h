@@ -64,6 +64,8 @@ struct RayMeshStats {
   double landedFlux = 0;     // where it is wanted
   double droppedFlux = 0;    // branches that were not followed
   double lostFlux = 0;       // of triangles whose paths end nowhere
+  double shadedFlux = 0;     // stopped before it met a caster
+  double missedFlux = 0;     // that went elsewhere than where it is wanted
   uint64_t singlePaths = 0;  // beams that are one path
   double error = 0;          // that was reached
   RayMeshBound bound = RayMeshBound::none;

@@ -314,7 +314,10 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) {
   wanted.reserve(landed.size());
   RayMeshStats& stats = sheets_.stats;
   for (uint32_t i = 0; i < landed.size(); ++i) {
-    if (!landings_[i].isWanted) continue;
+    if (!landings_[i].isWanted) {
+      stats.missedFlux += double(landings_[i].luminance);
+      continue;
+    }
     wanted.push_back(i);
     stats.landedFlux += double(landings_[i].luminance);
     stats.singlePaths += landed[i].cuts == kWhole;

@@ -73,6 +73,8 @@ void tell(const RayMesh& mesh, Paths paths, const Accuracy& accuracy, bool isPic
   setCount(stats, "ray_mesh_bytes", told.bytes);
   setCount(stats, "bound_met", told.bound != RayMeshBound::none);
   stats.shortfall = shortfallOf(mesh, accuracy, isPicture);
+  stats.budget = LightBudget{told.incidentFlux, told.landedFlux, told.lostFlux,
+                             told.shadedFlux,   told.missedFlux, paths == Paths::all};
   stats.error = told.error;
   // Without reflection, what is totally reflected is lost by definition.
   const double out = told.droppedFlux + (paths == Paths::all ? told.lostFlux : 0);

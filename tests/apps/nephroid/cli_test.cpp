@@ -61,6 +61,41 @@ TEST_F(SceneCommand, InfoSaysWhatASceneHolds) {
   EXPECT_NE(result.output.find("sensor"), std::string::npos) << result.output;
 }
 
+TEST_F(SceneCommand, WhatWasMendedAndWhyLightIsMissingIsToldAndKept) {
+  write("inward.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+  const std::string glass = std::string(kFloor) + R"([[material]]
+name = "glass"
+type = "dielectric"
+[[object]]
+name = "shard"
+material = "glass"
+mesh = "inward.obj"
+translation = [0, 0.5, 0]
+)";
+  const auto measured = [&](const std::string& scene, const std::string& technique) {
+    write("shard.toml", scene);
+    const ProgramResult result =
+        runProgram({"measure", at("shard.toml"), "--sensor", "floor", "-o", at("o.exr"), "--technique",
+                    technique, "--passes", "1", "--stats", at("s.json")});
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return result.errors;
+  };
+  const std::string turned =
+      "nephroid: warning: \"shard\": 1 closed part of its mesh (4 triangles) looked inward";
+  for (const char* technique : {"adaptive-beams", "reference"}) {
+    const std::string errors = measured(glass, technique);
+    EXPECT_EQ(errors.rfind(turned, 0), 0u) << errors;
+    EXPECT_EQ(errors.find(turned, 1), std::string::npos) << errors;
+    const auto stats = nlohmann::json::parse(std::ifstream(at("s.json")));
+    EXPECT_EQ(stats["notes"][0].get<std::string>().rfind("\"shard\"", 0), 0u);
+  }
+  std::string dark = glass;
+  dark.replace(dark.find("intensity = 40"), 14, "intensity = 0");
+  EXPECT_NE(measured(dark, "adaptive-beams").find("nephroid: note: no light reaches any caster"),
+            std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(std::ifstream(at("s.json")))["notes"].size(), 2u);
+}
+
 TEST_F(SceneCommand, WorksWithinTheErrorAndTheMemoryAskedFor) {
   const auto measure = [&](std::initializer_list<std::string> more) {
     std::vector<std::string> arguments{"measure", at("scene.toml"), "--sensor", "floor",
