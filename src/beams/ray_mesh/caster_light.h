@@ -5,6 +5,7 @@
 
 #include "beams/ray_mesh/path_tree.h"
 #include "core/color.h"
+#include "lights/lamp_cells.h"
 #include "lights/light_intensity.h"
 
 namespace nephroid {
@@ -13,6 +14,7 @@ struct CasterLight {
   uint32_t object = 0;
   Emitter emitter{};
   ShapedLight light;
+  LampSpread spread;    // of what the emitter stands for, where the lamp has a size
   uint16_t medium = 0;  // that the emitter stands in, of the media table
   uint8_t channel = 0;
   vec3 bandColor{1};  // the part of each color channel that travels in this band

@@ -7,6 +7,7 @@
 
 #include "beams/footprint.h"
 #include "beams/ray_mesh/media_table.h"
+#include "beams/ray_mesh/path_spread.h"
 #include "trace/paths.h"
 #include "trace/ray_scene.h"
 
@@ -82,12 +83,16 @@ class PathTree {
   void trace(std::span<const uint32_t> bent);
 
   std::vector<PathNode> nodes;
+  bool hasSpreads = false;          // some lamp has a size
+  std::vector<PathSpread> spreads;  // of the nodes, then
   uint64_t raysTraced = 0;
 
  private:
   void bendOne(PathNode& node) const;
   void finish(PathNode& node, const Ray& ray, const Hit& hit) const;
   void setSides(PathNode& node);
+  PathSpread bentSpread(const PathNode& node) const;
+  void carryTo(const PathNode& node, const Hit& hit, PathSpread& spread) const;
 
   vec3 leftAfter(uint16_t medium, vec3 start, vec3 direction, float length) const;
 
