@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/directions.h"
 
 namespace nephroid {
 namespace {
 
-// Radians that a part of a lamp is seen under, at most, while there are not many.
-constexpr float kWidestPart = 0.12f;
-constexpr uint32_t kMostPartsAlong = 4;
+// Radians that a part of a lamp is seen under, and parts along an axis, for an error of 1 %: what is off
+// grows as the square of the angle.
+constexpr float kWidestPart = 0.3f, kMostPartsAlong = 2;
+constexpr float kErrorOfWidest = 0.01f;
+constexpr double kFlat = 1e-12;  // variance of what has no extent
 
 enum class LampForm { disk, rectangle, segment };
 
@@ -29,24 +32,51 @@ vec2 placeOf(LampForm form, vec2 at) {
   return form == LampForm::rectangle ? 2.0f * at - 1.0f : vec2(2 * at.x - 1, 0);
 }
 
-// Point `i` of a sequence whose beginnings are spread evenly over the unit square (Roberts 2018).
-vec2 spreadPoint(uint32_t i) {
-  const glm::dvec2 at = 0.5 + double(i) * glm::dvec2(0.7548776662466927, 0.5698402909980532);
-  return vec2(at - floor(at));
+// Point `i` of `count`, a power of two, spread evenly over the unit square, also along each of its sides
+// (Hammersley 1960).
+vec2 spreadPoint(uint32_t i, uint32_t count) {
+  float mirrored = 0;
+  for (uint32_t bit = count / 2; bit > 0; bit /= 2) mirrored = 0.5f * (mirrored + float(i / bit % 2));
+  return {(float(i) + 0.5f) / float(count), mirrored + 0.5f / float(count)};
 }
 
-uint32_t partsFor(float angle) {
-  return std::clamp(uint32_t(std::ceil(angle / kWidestPart)), 1u, kMostPartsAlong);
+// Moves places so that their mean is 0 and their covariance that of the unit square's, 1 along each axis.
+void evenOut(std::span<vec2> places) {
+  const double count = double(places.size());
+  glm::dvec2 mean(0);
+  for (const vec2 place : places) mean += glm::dvec2(place) / count;
+  double xx = 0, xy = 0, yy = 0;
+  for (const vec2 place : places) {
+    const glm::dvec2 off = glm::dvec2(place) - mean;
+    xx += off.x * off.x / count;
+    xy += off.x * off.y / count;
+    yy += off.y * off.y / count;
+  }
+  const double slope = xx > 0 ? xy / xx : 0, rest = yy - slope * xy;
+  for (vec2& place : places) {
+    const glm::dvec2 off = glm::dvec2(place) - mean;
+    place = vec2(xx > 0 ? off.x / std::sqrt(xx) : 0,
+                 rest > kFlat ? (off.y - slope * off.x) / std::sqrt(rest) : 0);
+  }
 }
 
-LampPlane planeOf(const Light& light, vec3 center, float radius) {
+uint32_t partsFor(float angle, float error) {
+  const float finer = std::sqrt(kErrorOfWidest / error);
+  return uint32_t(
+      std::clamp(std::ceil(angle * finer / kWidestPart), 1.0f, std::ceil(kMostPartsAlong * finer)));
+}
+
+LampPlane planeOf(const Light& light, vec3 center, float radius, float error) {
   LampPlane plane;
   plane.middle = middleOf(light);
   const vec3 offset = center - plane.middle;
   const float away = length(offset), nearest = std::max(away - radius, 0.25f * radius);
+  // Light that comes from nearer by moves farther: places that are not equally far away need more parts.
+  constexpr float kWeightOfDepth = 4;
   const auto partsOf = [&](vec3 half) {
-    const vec3 across = away > 0 ? half - dot(half, offset) / (away * away) * offset : half;
-    return partsFor(2 * length(across) / std::max(nearest, 1e-30f));
+    const vec3 axis = away > 0 ? offset / away : vec3(0);
+    const float deep = std::abs(dot(half, axis)), wide = length(half - dot(half, axis) * axis);
+    return partsFor(2 * (wide + kWeightOfDepth * deep) / std::max(nearest, 1e-30f), error);
   };
   if (light.type == LightType::line) {
     plane.form = LampForm::segment;
@@ -75,44 +105,50 @@ LampPlane planeOf(const Light& light, vec3 center, float radius) {
   const mat3 frame = frameAround(plane.toward);
   plane.axis[0] = size * frame[0];
   plane.axis[1] = size * frame[1];
-  plane.parts = uvec2(partsFor(angle));
+  plane.parts = uvec2(partsFor(angle, error));
   return plane;
 }
 
-// The places of part (x, y), offset from their mean, which is returned; and their standard deviations.
+// The mean of the places of part (x, y), and what they are about it.
 vec2 describePart(const LampPlane& plane, uvec2 part, LampSpread& spread) {
-  constexpr uint32_t kMany = 4096;
-  const auto places = [&](uint32_t count) {
-    std::vector<vec2> at;
-    for (uint32_t i = 0; i < count; ++i)
-      at.push_back(placeOf(plane.form, (vec2(part) + spreadPoint(i)) / vec2(plane.parts)));
-    return at;
+  constexpr uint32_t kAll = 4096;
+  const auto place = [&](uint32_t i, uint32_t count) {
+    return placeOf(plane.form, (vec2(part) + spreadPoint(i, count)) / vec2(plane.parts));
   };
-  const auto meanOf = [](const std::vector<vec2>& at) {
-    glm::dvec2 sum(0);
-    for (const vec2 place : at) sum += glm::dvec2(place);
-    return vec2(sum / double(at.size()));
-  };
-  const auto deviationOf = [](const std::vector<vec2>& at, vec2 mean) {
-    glm::dvec2 sum(0);
-    for (const vec2 place : at) sum += glm::dvec2((place - mean) * (place - mean));
-    return vec2(sqrt(sum / double(at.size())));
-  };
-  const std::vector<vec2> all = places(kMany);
-  const vec2 middle = meanOf(all);
-  spread.deviation = deviationOf(all, middle);
-  uint32_t count = 4;
-  for (LampPoints& points : spread.points) {
-    points.at = places(count);
-    const float apart = float(plane.form == LampForm::segment ? count * count : count);
-    points.rest = 1 / apart;
-    const vec2 mean = meanOf(points.at);
-    const vec2 wanted = std::sqrt(1 - points.rest) * spread.deviation;
-    const vec2 scale = wanted / max(deviationOf(points.at, mean), vec2(1e-30f));
-    for (vec2& at : points.at) at = (at - mean) * scale;
-    count *= 4;
+  glm::dvec2 sum(0), squares(0);
+  for (uint32_t i = 0; i < kAll; ++i) {
+    const glm::dvec2 at(place(i, kAll));
+    sum += at / double(kAll);
+    squares += at * at / double(kAll);
   }
-  return middle;
+  spread.isLine = plane.form == LampForm::segment;
+  spread.deviation = vec2(sqrt(max(squares - sum * sum, glm::dvec2(0))));
+  for (uint32_t i = 0; i < kFewLampPlaces; ++i) spread.fewPlaces[i] = place(i, kFewLampPlaces);
+  for (uint32_t i = 0; i < kLampPlaces; ++i) spread.places[i] = place(i, kLampPlaces);
+  for (uint32_t i = 0; i < kManyLampPlaces; ++i) spread.manyPlaces[i] = place(i, kManyLampPlaces);
+  evenOut(spread.fewPlaces);
+  evenOut(spread.places);
+  evenOut(spread.manyPlaces);
+  return vec2(sum);
+}
+
+// What a part's places send to `center` in the mean, over what its middle does.
+float meanOverMiddle(const LampCell& cell, vec3 center) {
+  const LampSpread& spread = cell.spread;
+  const auto sent = [&](vec3 position) {
+    Emitter emitter = cell.emitter;
+    emitter.power = vec3(1);
+    emitter.position = position;
+    return emitterIlluminance(emitter, center).x;
+  };
+  const float middle = sent(cell.emitter.position);
+  if (!(middle > 0)) return 1;
+  float sum = 0;
+  for (const vec2 place : spread.places) {
+    const vec2 at = place * spread.deviation;
+    sum += sent(cell.emitter.position + at.x * spread.axis[0] + at.y * spread.axis[1]);
+  }
+  return sum / (middle * float(kLampPlaces));
 }
 
 }  // namespace
@@ -126,8 +162,8 @@ std::array<vec3, 2> LampSpread::axesAcross(vec3 direction) const {
   return {axis[0] - dot(axis[0], direction) * scale * both, axis[1] - dot(axis[1], direction) * scale * both};
 }
 
-std::vector<LampCell> lampCells(const Light& light, uint32_t index, vec3 center, float radius) {
-  const LampPlane plane = planeOf(light, center, radius);
+std::vector<LampCell> lampCells(const Light& light, uint32_t index, vec3 center, float radius, float error) {
+  const LampPlane plane = planeOf(light, center, radius, error);
   const float share = 1 / float(plane.parts.x * plane.parts.y);
   std::vector<LampCell> cells;
   for (uint32_t y = 0; y < plane.parts.y; ++y)
@@ -138,6 +174,7 @@ std::vector<LampCell> lampCells(const Light& light, uint32_t index, vec3 center,
       spread.axis[1] = plane.axis[1];
       spread.toward = plane.toward;
       spread.isBall = plane.isBall;
+      spread.isOneOfMore = share < 1;
       const vec2 middle = describePart(plane, {x, y}, spread);
       const vec3 offset = middle.x * plane.axis[0] + middle.y * plane.axis[1];
       cell.emitter = lampOf(light, index);
@@ -147,9 +184,12 @@ std::vector<LampCell> lampCells(const Light& light, uint32_t index, vec3 center,
         cell.emitter.power /= dot(cell.emitter.direction, plane.middle);
       } else {
         cell.emitter.position = plane.middle + offset;
-        // A ball looks the same from all over, as wide as its middle is far away.
+        // A surface that faces a ball gets from its parts, at a slant, what the middle would send.
         const float squared = dot(center - plane.middle, center - plane.middle);
-        if (plane.isBall && squared > 0) cell.emitter.power *= 1 + dot(offset, offset) / squared;
+        if (!plane.isBall)
+          cell.emitter.power *= meanOverMiddle(cell, center);
+        else if (squared > 0)
+          cell.emitter.power *= std::pow(1 + dot(offset, offset) / squared, 1.5f);
       }
       cells.push_back(std::move(cell));
     }

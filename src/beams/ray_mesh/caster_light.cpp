@@ -47,7 +47,8 @@ vec3 allThree(vec2 weights) {
 
 }  // namespace
 
-std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, MediaTable& media) {
+std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, float error,
+                                          MediaTable& media) {
   const std::vector<const Material*> materials = materialsOf(scene);
   const int channels = disperses(scene) ? 3 : 1;
   std::vector<CasterLight> all;
@@ -88,7 +89,7 @@ std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& ra
       const Placement& placement = scene.objects[object].placement;
       const Sphere sphere = boundingSphere(scene.meshOf(scene.objects[object]));
       for (const LampCell& cell :
-           lampCells(lamp, index, placement.point(sphere.center), placement.scale * sphere.radius))
+           lampCells(lamp, index, placement.point(sphere.center), placement.scale * sphere.radius, error))
         add(object, cell, around(cell.emitter));
     }
   }

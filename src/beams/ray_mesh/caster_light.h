@@ -21,8 +21,10 @@ struct CasterLight {
   float facing = 1;   // -1 where the light stands inside the caster and meets its triangles from behind
 };
 
-// All that casters get, lamp by lamp. Where materials disperse, one for each channel.
-std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, MediaTable& media);
+// All that casters get, lamp by lamp. Where materials disperse, one for each channel. `error`: that the light
+// may have, of its mean.
+std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, float error,
+                                          MediaTable& media);
 
 // A point of a triangle of a caster's mesh, by weights of its second and third corner. World space.
 struct EntryPoint {

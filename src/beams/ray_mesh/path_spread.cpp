@@ -5,6 +5,16 @@
 #include <cmath>
 
 namespace nephroid {
+namespace {
+
+// Radians for all of a lamp: what turns more, after many boundaries, does not turn in proportion.
+constexpr float kMostTurn = 2;
+
+void boundTurns(PathSpread& spread) {
+  for (vec3& turn : spread.direction) turn *= std::min(1.0f, kMostTurn / std::max(length(turn), 1e-30f));
+}
+
+}  // namespace
 
 PathSpread firstSpread(const LampSpread& lamp, bool isFromAfar, vec3 direction, float length) {
   PathSpread spread;
@@ -23,6 +33,7 @@ void reflectSpread(const PathSpread& before, vec3 direction, vec3 normal, PathSp
     const float change = dot(before.direction[i], normal) + dot(direction, turn);
     after.direction[i] = before.direction[i] - 2.0f * (change * normal + along * turn);
   }
+  boundTurns(after);
 }
 
 void refractSpread(const PathSpread& before, vec3 direction, vec3 normal, float eta, PathSpread& after) {
@@ -36,6 +47,7 @@ void refractSpread(const PathSpread& before, vec3 direction, vec3 normal, float 
     const float bend = eta * change - eta * eta * incident * change / transmitted;
     after.direction[i] = eta * before.direction[i] + bend * normal + (eta * incident - transmitted) * turn;
   }
+  boundTurns(after);
 }
 
 void carrySpread(const PathSpread& before, vec3 direction, float length, vec3 normal, PathSpread& after) {

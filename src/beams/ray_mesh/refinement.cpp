@@ -34,7 +34,9 @@ constexpr float kSideOfTangent = 1.732f;
 // Variance along an axis of such a triangle.
 constexpr float kTangentVariance = 1.0f / 8;
 // Of the standard deviation of a lamp's image, the detail that is left in light that is smeared by it.
-constexpr float kDetailOfBlur = 0.5f;
+constexpr float kDetailOfBlur = 0.7f;
+// Of the standard deviation, how far the image of a lamp reaches from its middle, at most.
+constexpr float kReachOfBlur = 2.5f;
 
 // Unit, on the side of the receiver that the path's light lands on.
 vec3 litNormal(const PathNode& node) {
@@ -105,6 +107,10 @@ Landing Refinement::landingOf(const Sheet& sheet) const {
       low = min(low, texel);
       high = max(high, texel);
     }
+    // And as far as the lamp's size smears it.
+    const vec2 about = kReachOfBlur * landing.blur.y * vec2(length(grid.axisU), length(grid.axisV));
+    low -= about;
+    high += about;
     landing.isWanted = glm::all(glm::lessThan(low, settings_.wantedHigh)) &&
                        glm::all(glm::greaterThan(high, settings_.wantedLow));
   }
@@ -118,11 +124,12 @@ BeamShift Refinement::shiftOf(const Sheet& sheet) const {
   const LampSpread& lamp = sheets_.spreadOf(sheet);
   for (int c = 0; c < 3; ++c) {
     const PathNode& node = sheets_.tree.nodes[sheet.node[c]];
+    const float way = distance(sheets_.tree.nodes[node.parent].position, node.position);
     const PathSpread& spread = sheets_.tree.spreads[sheet.node[c]];
     for (int i = 0; i < 2; ++i) {
       const vec3 moved = lamp.deviation[i] * spread.position[i];
       // It is no straight line where it is long.
-      shift.corner[c][i] = moved * std::min(1.0f, 0.5f * node.length / std::max(length(moved), 1e-30f));
+      shift.corner[c][i] = moved * std::min(1.0f, 0.5f * way / std::max(length(moved), 1e-30f));
     }
   }
   return shift;
@@ -345,9 +352,9 @@ LandedBeam Refinement::beamOf(const Sheet& sheet, const Landing& landing) const 
 }
 
 // How many beams a sheet becomes: so many that the lamp's image has no gaps.
-std::size_t Refinement::copiesOf(const Sheet& sheet, const Landing& landing) const {
-  if (sheet.cuts == kWhole || landing.blur.y <= 0) return 1;
-  return copiesFor(landing.blur.y, landing.detail);
+BeamCopies Refinement::copiesOf(const Sheet& sheet, const Landing& landing) const {
+  if (sheet.cuts == kWhole || landing.blur.y <= 0) return {};
+  return copiesFor(landing.blur.y, landing.detail, landing.longest, sheets_.spreadOf(sheet).isOneOfMore);
 }
 
 void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) {
@@ -365,7 +372,7 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) {
   // Of each, the first of the beams that it becomes.
   std::vector<std::size_t> firsts(wanted.size() + 1, mesh.beams.size());
   for (std::size_t i = 0; i < wanted.size(); ++i)
-    firsts[i + 1] = firsts[i] + copiesOf(landed[wanted[i]], landings_[wanted[i]]);
+    firsts[i + 1] = firsts[i] + copiesOf(landed[wanted[i]], landings_[wanted[i]]).count;
   mesh.beams.resize(firsts.back());
   oneapi::tbb::parallel_for(IndexRange(0, wanted.size(), 512), [&](const IndexRange& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -377,7 +384,9 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) {
       if (beams.size() == 1) {
         beams[0] = beam;
       } else {
-        widen(beam, shiftOf(sheet), sheets_.spreadOf(sheet), normal, beams);
+        const bool isMixed = copiesOf(sheet, landings_[wanted[i]]).areMixed;
+        widen(beam, shiftOf(sheet), sheets_.spreadOf(sheet), normal,
+              isMixed ? std::optional(i) : std::nullopt, beams);
       }
     }
   });

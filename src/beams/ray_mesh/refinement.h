@@ -46,7 +46,7 @@ class Refinement {
 
  private:
   LandedBeam beamOf(const Sheet& sheet, const Landing& landing) const;
-  std::size_t copiesOf(const Sheet& sheet, const Landing& landing) const;
+  BeamCopies copiesOf(const Sheet& sheet, const Landing& landing) const;
   vec2 blurOf(const Sheet& sheet) const;
   BeamShift shiftOf(const Sheet& sheet) const;
   void describe(const std::vector<Sheet>& landed);

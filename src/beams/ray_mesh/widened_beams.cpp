@@ -8,8 +8,14 @@ namespace nephroid {
 using glm::mat2;
 namespace {
 
-// Standard deviations of the lamp's image that are too small to be seen, over the detail.
-constexpr float kNarrow = 0.15f, kSmall = 0.6f, kLarge = 4;
+// Standard deviations of the lamp's image, over the detail: that are not seen, and that are hardly seen.
+constexpr float kUnseenBlur = 0.15f, kSmallBlur = 0.6f;
+// Of the standard deviation, the size of beams of which there are many in a lamp's image.
+constexpr float kSmallBeam = 0.15f;
+constexpr uint32_t kMixed = 8;  // of the many places, that such a beam uses
+// Of the variance of what a place stands for, what its beam is smeared by is not taken from that of the
+// places: the middle of the lamp's image stays as bright as it is.
+constexpr float kNotTaken = 0.5f;
 
 // Across the plane of a triangle.
 struct Plane {
@@ -57,24 +63,29 @@ void smear(const Plane& plane, const mat2& variance, vec3 (&corner)[3]) {
 
 }  // namespace
 
-std::size_t copiesFor(float blur, float detail) {
-  const float times = blur / detail;
-  return times < kNarrow ? 1 : times < kSmall ? 4 : times < kLarge ? 16 : 64;
+BeamCopies copiesFor(float blur, float detail, float longest, bool isOneOfMore) {
+  if (blur < kUnseenBlur * detail) return {};
+  if (longest < kSmallBeam * blur) return {kMixed, true};
+  return {isOneOfMore || blur < kSmallBlur * detail ? kFewLampPlaces : kLampPlaces, false};
 }
 
 void widen(const LandedBeam& beam, const BeamShift& shift, const LampSpread& lamp, vec3 normal,
-           std::span<LandedBeam> beams) {
-  const LampPoints& points = beams.size() == 4 ? lamp.points[0] : lamp.points[beams.size() == 16 ? 1 : 2];
+           std::optional<std::size_t> number, std::span<LandedBeam> beams) {
+  const std::size_t count = beams.size(), stride = kManyLampPlaces / kMixed;
   const Plane plane = planeAcross(normal);
+  const float rest = lamp.restOf(number ? kLampPlaces : count);
   mat2 variance(0);
   for (int i = 0; i < 2; ++i) {
     const vec2 mean = plane.across(shift.corner[0][i] + shift.corner[1][i] + shift.corner[2][i]) / 3.0f;
-    variance += points.rest * outerProduct(mean, mean);
+    variance += rest * outerProduct(mean, mean);
   }
-  for (std::size_t k = 0; k < beams.size(); ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     LandedBeam& part = beams[k] = beam;
-    part.flux /= float(beams.size());
-    const vec2 at = points.at[k] / max(lamp.deviation, vec2(1e-30f));
+    part.flux /= float(count);
+    const vec2 place = number                 ? lamp.manyPlaces[k * stride + *number % stride]
+                       : count == kLampPlaces ? lamp.places[k]
+                                              : lamp.fewPlaces[k];
+    const vec2 at = std::sqrt(1 - (1 - kNotTaken) * rest) * place;
     for (int c = 0; c < 3; ++c) part.corner[c] += at.x * shift.corner[c][0] + at.y * shift.corner[c][1];
     smear(plane, variance, part.corner);
   }
