@@ -127,7 +127,7 @@ void runMeasure(const MeasureOptions& options) {
   const SensorLayer causticsLayer = readRepeatedly(caustics, options.repeat, stats);
   if (device) stats.memoryBytes = device->memoryBytes();
 
-  const SensorLayer direct = measureDirect(scene, rays, sensor, progress);
+  const SensorLayer direct = measureDirect(scene, rays, sensor, accuracyOf(settings).error, progress);
   writeExr(options.output, sensorImage(scene, sensor, direct, causticsLayer),
            imageAttributes(options.picture, "lux"));
   reportStats(options.stats, stats);

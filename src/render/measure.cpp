@@ -5,8 +5,10 @@
 #include "beams/build.h"
 #include "beams/deposit.h"
 #include "lights/emitters.h"
+#include "lights/lamp_light.h"
 #include "lights/light_in_air.h"
 #include "lights/light_intensity.h"
+#include "render/lamp_exposure.h"
 #include "scene/checks.h"
 #include "transport/queries.h"
 
@@ -42,10 +44,16 @@ void addChannels(Image& image, const std::string& prefix, const SensorLayer& lay
 
 }  // namespace
 
-SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor,
+SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor, float error,
                           Progress& progress) {
   checkSensor(sensor);
-  const std::vector<Emitter> emitters = emittersOf(scene);
+  std::vector<Emitter> emitters;  // of lights without a size, and parts of skies
+  for (uint32_t i = 0; i < scene.lights.size(); ++i)
+    if (!hasSize(scene.lights[i])) {
+      const std::vector<Emitter> own = emittersOf(scene.lights[i], i);
+      emitters.insert(emitters.end(), own.begin(), own.end());
+    }
+  const LampExposure lamps(scene, rays, sensor, error);
   const std::vector<ShapedLight> lights = shapedLights(scene);
   const vec3 normal = sensor.normal();
   SensorLayer layer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
@@ -60,7 +68,8 @@ SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor
                            sensor.v * ((float(row) + at.y) / float(sensor.resolution.y));
         sum += directAt(scene, rays, lights, emitters, point, normal);
       }
-      layer[std::size_t(row) * sensor.resolution.x + column] = sum / float(kShadowGrid * kShadowGrid);
+      layer[std::size_t(row) * sensor.resolution.x + column] =
+          sum / float(kShadowGrid * kShadowGrid) + lamps.onTexel({column, row});
     }
     progress.advance();
   });
