@@ -124,7 +124,8 @@ SideBySide compareView(const CompareJob& job, std::vector<TechniqueResult> drawn
 SideBySide compareSensor(const CompareJob& job, const Sensor& sensor) {
   SideBySide side;
   side.sensor = sensor.name;
-  const SensorLayer direct = measureDirect(job.scene, job.rays, sensor, job.progress);
+  const SensorLayer direct = measureDirect(job.scene, job.rays, sensor,
+                                           accuracyOf(job.options.picture.technique).error, job.progress);
   for (const std::string& technique : job.options.techniques)
     side.techniques.push_back(readTechnique(job, technique, sensor, direct));
   const ReferenceSettings settings =

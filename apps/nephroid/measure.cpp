@@ -137,7 +137,7 @@ void runMeasure(const MeasureOptions& options) {
   if (info.traits.drawsCaustics)
     for (const std::string& line : missingLight(scene, stats.budget, &sensor)) addLine(stats.notes, line);
 
-  const SensorLayer direct = measureDirect(scene, rays, sensor, progress);
+  const SensorLayer direct = measureDirect(scene, rays, sensor, accuracyOf(settings).error, progress);
   writeExr(options.output, sensorImage(scene, sensor, direct, causticsLayer),
            imageAttributes(options.picture, "lux"));
   reportStats(options.stats, stats);

@@ -79,6 +79,11 @@ void drawLight(Light& light, const Light& first) {
     dragMeters(name, light.position, kPlace);
   }
   if (light.type == LightType::line) dragMeters("To", light.end, "Where the tube ends (m)");
+  if (light.type == LightType::directional)
+    slider("Width", light.angle, 0, 10, "%.2f°",
+           "The angle that its disk is seen under (degrees); the sun's is 0.53");
+  if (light.type == LightType::point || light.type == LightType::spot)
+    slider("Radius", light.radius, 0, 1, "%.3f m", "Of a ball that looks evenly bright; 0: a point");
   if (light.type == LightType::directional || light.type == LightType::spot) drawDirection(light.direction);
   if (light.type == LightType::spot && light.outerAngle <= 90) drawSpot(light);
 }

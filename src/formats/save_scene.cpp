@@ -186,6 +186,8 @@ void saveLight(const Light& before, const Light& after, const toml::table& table
     text.set(table, "inner_angle", tomlNumber(after.innerAngle));
     endCue(table, "zoom", after.outerAngle, text);
   }
+  if (before.radius != after.radius) text.set(table, "radius", tomlNumber(after.radius));
+  if (before.angle != after.angle) text.set(table, "angle", tomlNumber(after.angle));
   if (before.goboRotation != after.goboRotation)
     text.set(table, "gobo_rotation", tomlNumber(after.goboRotation));
   saveStrength(before, after, hasOtherCone, table, text);

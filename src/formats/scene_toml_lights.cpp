@@ -129,8 +129,21 @@ vec3 spotIntensity(TomlTable& table, const Light& light, const Scene& scene) {
   return *flux / weightedSolidAngle(light);
 }
 
+// m; of a ball. 0: a point.
+float readRadius(TomlTable& table) {
+  return static_cast<float>(table.number("radius", {0, 1e6}).value_or(0));
+}
+
+// Degrees that the light's disk is seen under.
+float readAngle(TomlTable& table) {
+  if (!table.isText("angle")) return static_cast<float>(table.number("angle", {0, kWidestAngle}).value_or(0));
+  if (table.text("angle") != "sun") table.fail("angle", "must be a number of degrees, or \"sun\" for 0.53");
+  return kSunAngle;
+}
+
 void readSpot(TomlTable& table, Light& light, Scene& scene) {
   light.position = table.requiredVector3("position");
+  light.radius = readRadius(table);
   light.goboTexture = loadShared(table, "gobo", scene, scene.textures, loadGobo, kGoboPrefix);
   light.profile = loadShared(table, "ies", scene, scene.profiles, loadIes);
   const auto direction = table.vector3("direction"), target = table.vector3("target");
@@ -199,6 +212,7 @@ void readLights(std::vector<TomlTable> tables, Scene& scene) {
       case LightType::point:
         light.position = table.requiredVector3("position");
         light.intensity = table.requiredNumberOrRgb("intensity", kNotNegative);
+        light.radius = readRadius(table);
         break;
       case LightType::spot:
         readSpot(table, light, scene);
@@ -206,6 +220,7 @@ void readLights(std::vector<TomlTable> tables, Scene& scene) {
       case LightType::directional:
         light.direction = unitDirection(table, table.requiredVector3("direction"), "direction");
         light.illuminance = table.requiredNumberOrRgb("illuminance", kNotNegative);
+        light.angle = readAngle(table);
         break;
       case LightType::line:
         readLine(table, light);

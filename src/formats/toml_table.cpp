@@ -39,6 +39,11 @@ bool TomlTable::has(const std::string& key) {
   return find(key) != nullptr;
 }
 
+bool TomlTable::isText(const std::string& key) {
+  const toml::node* node = find(key);
+  return node && node->is_string();
+}
+
 std::string TomlTable::at(const std::string& key) const {
   const toml::node* node = table_->get(key);
   const auto line = (node ? node->source() : table_->source()).begin.line;

@@ -32,6 +32,7 @@ class TomlTable {
   TomlTable(const toml::table& table, std::string file, std::string name);
 
   bool has(const std::string& key);
+  bool isText(const std::string& key);
   void setName(std::string name) { name_ = std::move(name); }
 
   std::optional<std::string> text(const std::string& key);

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/color.h"
+#include "core/directions.h"
 
 namespace nephroid {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr uvec2 kEvenSkySize{64, 32};
 
 // Cells of a map: columns and rows from `low` up to `high`, which is not of it.

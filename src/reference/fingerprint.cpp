@@ -37,7 +37,7 @@ void add(SceneHasher& hasher, const Material& m) {
 void add(SceneHasher& hasher, const Light& l) {
   hasher.add(static_cast<uint32_t>(l.type), l.position, l.end, l.direction, l.intensity, l.illuminance,
              l.innerAngle, l.outerAngle, l.goboTexture, l.goboRotation, l.profile, l.u, l.v, l.skyMap,
-             l.skyRotation);
+             l.skyRotation, l.radius, l.angle);
 }
 
 void add(SceneHasher& hasher, const Medium& m) {

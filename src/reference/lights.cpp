@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/color.h"
+#include "core/directions.h"
 #include "geometry/bounds.h"
-#include "reference/sampling.h"
 
 namespace nephroid {
 namespace {
@@ -30,11 +30,9 @@ Sphere ballAround(const std::vector<Sphere>& balls) {
   return whole;
 }
 
-// 1 - cosine of the half angle that a ball is seen under; 2 from inside it.
-float coneWidth(vec3 from, vec3 center, float radius) {
-  const float sineSquared = radius * radius / std::max(dot(center - from, center - from), 1e-30f);
-  if (!(sineSquared < 1)) return 2;
-  return sineSquared / (1 + std::sqrt(1 - sineSquared));
+// The place on a light for a number in [0, 1).
+vec2 placeOn(const Light& light, float u) {
+  return light.type == LightType::line ? vec2(u, 0) : pointOnCurve(double(u));
 }
 
 float coneWidth(const Light& light) {
@@ -57,6 +55,10 @@ Lights::Lights(const Scene& sceneOfLights, Aim aim) : scene_(sceneOfLights) {
   const Sphere whole = ballAround(objects);
   sceneCenter_ = whole.center;
   sceneRadius_ = whole.radius;
+  for (const Light& light : scene_.lights)
+    meetsCaster_.push_back(std::ranges::any_of(casters, [&](const Sphere& ball) {
+      return extentOf(light) > 0 && distance(middleOf(light), ball.center) < extentOf(light) + ball.radius;
+    }));
   if (casters.size() > kMostTargets) casters = {ballAround(casters)};
 
   std::vector<Target> targets;
@@ -92,7 +94,7 @@ void Lights::addShares(uint32_t index, const std::vector<Target>& targets) {
                                    : light.intensity * skies_[skyOfLight_[index]].illuminance();
       flux = luminanceOf(illuminance) * kPi * target.radius * target.radius;
     } else {
-      const float width = coneWidth(middleOf(light), target.center, target.radius);
+      const float width = targetWidth(light, middleOf(light), target);
       if (isSpot && width > coneWidth(light)) {
         coneFlux = luminanceOf(peakIntensity(light)) * 2 * kPi * coneWidth(light);
         continue;
@@ -115,30 +117,26 @@ bool Lights::comesFromAfar(uint32_t light) const {
 
 vec3 Lights::position(uint32_t index, float u) const {
   const Light& light = scene_.lights[index];
-  if (light.type == LightType::line) return glm::mix(light.position, light.end, u);
-  if (light.type != LightType::area) return light.position;
-  const vec2 at = pointOnCurve(double(u));
-  return light.position + at.x * light.u + at.y * light.v;
+  if (light.type == LightType::point || light.type == LightType::spot) return light.position;
+  return lampOrigin(light, vec3(0), placeOn(light, u));
 }
 
-// Of a directional light always the same.
 SkyDistribution::Sample Lights::fromAfar(uint32_t index, float u) const {
   const Light& light = scene_.lights[index];
-  if (light.type == LightType::directional) return {light.direction, light.illuminance};
+  if (light.type == LightType::directional) {
+    const LightFromAfar part = lampFromAfar(light, placeOn(light, u));
+    return {part.direction, part.illuminance};
+  }
   SkyDistribution::Sample sample = skies_[skyOfLight_[index]].sample(u);
   sample.weight *= light.intensity;
   return sample;
 }
 
 Illumination Lights::illumination(uint32_t index, vec3 point, float u) const {
-  if (comesFromAfar(index)) {
-    const auto [direction, lux] = fromAfar(index, u);
-    return {direction, std::numeric_limits<float>::infinity(), lux};
-  }
-  const vec3 offset = point - position(index, u);
-  const float distance = length(offset);
-  const vec3 direction = offset / distance;
-  return {direction, distance, lightIntensity(shapes_[index], direction) / (distance * distance)};
+  const Light& light = scene_.lights[index];
+  if (light.type != LightType::sky) return lampLight(light, shapes_[index], point, placeOn(light, u));
+  const auto [direction, lux] = fromAfar(index, u);
+  return {direction, std::numeric_limits<float>::infinity(), lux};
 }
 
 EmittedPhoton Lights::emit(double choice, float along) const {
@@ -147,7 +145,7 @@ EmittedPhoton Lights::emit(double choice, float along) const {
   const double before = chosen == shares_.begin() ? 0 : (chosen - 1)->cumulative;
   const vec2 at = pointOnCurve(std::clamp((choice - before) / chosen->probability, 0.0, 1 - 0x1p-48));
   if (comesFromAfar(chosen->light)) return emitFromAfar(*chosen, fromAfar(chosen->light, along), at);
-  return emitFromPoint(*chosen, position(chosen->light, along), at);
+  return emitFromNear(*chosen, placeOn(scene_.lights[chosen->light], along), at);
 }
 
 EmittedPhoton Lights::emitFromAfar(const Share& share, const SkyDistribution::Sample& light, vec2 at) const {
@@ -167,25 +165,35 @@ EmittedPhoton Lights::emitFromAfar(const Share& share, const SkyDistribution::Sa
   return {through - back * light.direction, light.direction, light.weight / density, share.light};
 }
 
-EmittedPhoton Lights::emitFromPoint(const Share& share, vec3 origin, vec2 at) const {
+// 1 - cosine of the half angle of the directions toward a target. From a ball, light of one direction sets
+// out all over its disk: a target is as much larger.
+float Lights::targetWidth(const Light& light, vec3 origin, const Target& target) const {
+  const bool isBall = light.type == LightType::point || light.type == LightType::spot;
+  return target.isCone ? coneWidth(light)
+                       : coneWidth(origin, target.center, target.radius + (isBall ? light.radius : 0.0f));
+}
+
+// `place`: on the light.
+EmittedPhoton Lights::emitFromNear(const Share& share, vec2 place, vec2 at) const {
   const Light& light = scene_.lights[share.light];
-  const auto widthOf = [&](const Target& target) {
-    return target.isCone ? coneWidth(light) : coneWidth(origin, target.center, target.radius);
-  };
+  const bool isBall = light.type == LightType::point || light.type == LightType::spot;
+  const vec3 origin = isBall ? light.position : lampOrigin(light, vec3(0), place);
   const auto axisOf = [&](const Target& target) {
     if (target.isCone) return light.direction;
     const vec3 offset = target.center - origin;
     return dot(offset, offset) > 0 ? normalize(offset) : vec3(0, 0, 1);
   };
-  const vec3 direction = normalize(frameAround(axisOf(share.target)) * sampleCone(at, widthOf(share.target)));
+  const vec3 direction =
+      normalize(frameAround(axisOf(share.target)) * sampleCone(at, targetWidth(light, origin, share.target)));
   float density = 0;  // 1/sr, of all the targets that it may have been meant for
   for (uint32_t i = firstShare_[share.light]; i < firstShare_[share.light + 1]; ++i) {
-    const float width = widthOf(shares_[i].target);
+    const float width = targetWidth(light, origin, shares_[i].target);
     const vec3 aside = direction - axisOf(shares_[i].target);  // 1 - cosine is half its square
     if (&shares_[i] == &share || width >= 2 || 0.5f * dot(aside, aside) <= width)
       density += float(shares_[i].probability) * coneDensity(width);
   }
-  return {origin, direction, lightIntensity(shapes_[share.light], direction) / density, share.light};
+  return {isBall ? lampOrigin(light, direction, place) : origin, direction,
+          lightIntensity(shapes_[share.light], direction) / density, share.light};
 }
 
 }  // namespace nephroid

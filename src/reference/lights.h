@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "lights/light_intensity.h"
+#include "lights/lamp_light.h"
 #include "reference/sky_distribution.h"
 #include "trace/ray_scene.h"
 
@@ -18,13 +18,6 @@ struct EmittedPhoton {
   uint32_t light = 0;
 };
 
-// The light that falls on a point if nothing stands in the way. For a light with an extent, a sample of it.
-struct Illumination {
-  vec3 direction{0};    // unit, in which the light travels
-  float distance = 0;   // m; infinite where it comes from afar
-  vec3 illuminance{0};  // lux on a facing surface, without the loss in the air
-};
-
 // Where photons are sent. casters: only toward casters, because shadow rays are better for all other light.
 // everywhere: in all directions (for a directional light: over the whole scene).
 enum class Aim { casters, everywhere };
@@ -36,10 +29,14 @@ class Lights {
 
   uint32_t count() const;
   bool comesFromAfar(uint32_t light) const;
-  // `u` in [0, 1): chooses the place on a line, an area or a sky; not used for other lights.
+  // `u` in [0, 1): chooses the place on a light with a size; not used for other lights.
   Illumination illumination(uint32_t light, vec3 point, float u) const;
-  // The place (m) of the light at `u`; without meaning for light from afar.
+  // The place (m) of the light at `u`, of a ball its middle; without meaning for light from afar.
   vec3 position(uint32_t light, float u) const;
+  // m about the middle of a light.
+  float extent(uint32_t light) const { return extentOf(scene_.lights[light]); }
+  // Whether a caster may reach into the light, so that its photons do not all set out in the same medium.
+  bool meetsCaster(uint32_t light) const { return meetsCaster_[light]; }
 
   // Makes a photon from two numbers in [0, 1). `choice` selects the light and the direction, `along` the
   // place on the light. Evenly spread choices give evenly spread photons, and neighboring choices give
@@ -67,12 +64,14 @@ class Lights {
   void addShares(uint32_t light, const std::vector<Target>& targets);
   EmittedPhoton emitFromAfar(const Share& share, const SkyDistribution::Sample& light, vec2 at) const;
   SkyDistribution::Sample fromAfar(uint32_t light, float u) const;
-  EmittedPhoton emitFromPoint(const Share& share, vec3 origin, vec2 at) const;
+  EmittedPhoton emitFromNear(const Share& share, vec2 place, vec2 at) const;
+  float targetWidth(const Light& light, vec3 origin, const Target& target) const;
 
   const Scene& scene_;
   std::vector<ShapedLight> shapes_;     // of the lights
   std::vector<SkyDistribution> skies_;  // of the lights that are one
   std::vector<uint32_t> skyOfLight_;    // of the lights, in `skies`
+  std::vector<bool> meetsCaster_;       // of the lights
   vec3 sceneCenter_{0};
   float sceneRadius_ = 0;  // m
   std::vector<Share> shares_;

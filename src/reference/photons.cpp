@@ -91,7 +91,8 @@ PhotonTracer::Photon PhotonTracer::emit(const PhotonPass& pass, uint32_t index, 
   Photon photon;
   photon.emitted = emitted.flux / float(pass.photons);
   photon.path.direction = emitted.direction;
-  photon.path.media = mediaOfLights_[emitted.light];
+  photon.path.media = lights_.meetsCaster(emitted.light) ? boundaries_.mediaAround(emitted.origin)
+                                                         : mediaOfLights_[emitted.light];
   photon.ray = {emitted.origin, emitted.direction};
   photon.comesFromAfar = lights_.comesFromAfar(emitted.light);
   if (pass.bands.size() > 1) photon.band = uint32_t(random.uniform() * float(pass.bands.size()));

@@ -62,7 +62,8 @@ DirectLight::DrawnLight DirectLight::drawn(const Scene& scene, ShadowedLight sha
   DrawnLight drawn{std::move(shadowed), {}, kNone, kNone, vec2(0)};
   drawn.key = {.type = drawn.shadowed.row.first.type,
                .mapCount = drawn.shadowed.mapCount,
-               .isLine = drawn.shadowed.row.count > 1};
+               .isLine = drawn.shadowed.row.count > 1,
+               .isSoft = drawn.shadowed.softness > 0};
   if (light.type != LightType::spot) return drawn;
   drawn.gobo = light.goboTexture;
   drawn.profile = light.profile;
@@ -74,9 +75,8 @@ DirectLight::DrawnLight DirectLight::drawn(const Scene& scene, ShadowedLight sha
 }
 
 std::vector<gpu::SpecializationConstant> DirectLight::ProgramKey::specialization() const {
-  return {{"kEmitterType", type}, {"kMapCount", mapCount},       {"kIsLine", isLine},
-          {"kHasGobo", hasGobo},  {"kProfileType", profileType}, {"kHasAir", hasAir},
-          {"kHasBox", hasAirBox}};
+  return {{"kEmitterType", type}, {"kMapCount", mapCount},       {"kIsLine", isLine}, {"kIsSoft", isSoft},
+          {"kHasGobo", hasGobo},  {"kProfileType", profileType}, {"kHasAir", hasAir}, {"kHasBox", hasAirBox}};
 }
 
 DirectConstants DirectLight::constants(uint32_t index) const {
@@ -91,6 +91,7 @@ DirectConstants DirectLight::constants(uint32_t index) const {
   constants.coneOffset = light.row.first.coneOffset;
   constants.samples = light.row.count;
   constants.goboTurn = drawn.goboTurn;
+  constants.softness = light.softness;
   if (light.mapCount == 0) return constants;
   const ShadowProjection& projection = light.projection;
   const float width = 2 * projection.halfWidth, depth = projection.farthest - projection.nearest;

@@ -37,13 +37,15 @@ class DirectLight {
     uint32_t type = kEmitterPoint;
     uint32_t mapCount = 0;
     bool isLine = false;
+    bool isSoft = false;
     bool hasGobo = false;
     uint32_t profileType = kNoProfile;
     bool hasAir = false;
     bool hasAirBox = false;
     bool operator<(const ProgramKey& other) const {
       const auto tied = [](const ProgramKey& k) {
-        return std::tie(k.type, k.mapCount, k.isLine, k.hasGobo, k.profileType, k.hasAir, k.hasAirBox);
+        return std::tie(k.type, k.mapCount, k.isLine, k.isSoft, k.hasGobo, k.profileType, k.hasAir,
+                        k.hasAirBox);
       };
       return tied(*this) < tied(other);
     }

@@ -44,6 +44,7 @@ struct DirectConstants {
   vec3 aim;         // m
   uint samples;     // points of a row
   vec2 goboTurn;    // of placeInGobo
+  float softness;   // m, radius of what the emitter stands for; of light from afar its tangent
   BUFFER_ADDRESS(AirLights) air;  // the first; not there where there is no air
 };
 

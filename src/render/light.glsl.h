@@ -11,6 +11,7 @@ layout(constant_id = 2) const bool kIsLine = false;
 layout(constant_id = 3) const bool kHasGobo = false;
 layout(constant_id = 4) const uint kProfileType = kNoProfile;  // else kProfileType...
 layout(constant_id = 5) const bool kHasAir = false;
+layout(constant_id = 7) const bool kIsSoft = false;  // shadows have a penumbra
 layout(push_constant, scalar) uniform Constants {
   DirectConstants constants;
 };

@@ -5,8 +5,10 @@
 #include "beams/build.h"
 #include "beams/deposit.h"
 #include "lights/emitters.h"
+#include "lights/lamp_light.h"
 #include "lights/light_in_air.h"
 #include "lights/light_intensity.h"
+#include "render/lamp_exposure.h"
 #include "scene/checks.h"
 #include "transport/queries.h"
 
@@ -17,7 +19,6 @@ constexpr uint32_t kShadowGrid = 4;  // points along a texel's side that look at
 
 vec3 directAt(const Scene& scene, const RayScene& rays, const std::vector<ShapedLight>& lights,
               const std::vector<Emitter>& emitters, vec3 point, vec3 normal) {
-  const float rounding = 2 * rays.largestRounding();
   vec3 sum(0);
   for (const Emitter& emitter : emitters) {
     const vec3 direction = emitterDirection(emitter, point);
@@ -25,8 +26,7 @@ vec3 directAt(const Scene& scene, const RayScene& rays, const std::vector<Shaped
     if (cosine <= 0) continue;
     const float distance = emitter.type == kEmitterDirectional ? std::numeric_limits<float>::infinity()
                                                                : length(emitter.position - point);
-    // A sensor may lie on a surface, so the first part of the way is not looked at.
-    if (!rays.occluded({point, -direction, rounding / std::max(cosine, 0.01f), beforeLamp(distance)}))
+    if (!rays.occluded(rays.fromMeter(point, -direction, cosine, distance)))
       sum += cosine * airTransmittance(scene, emitter, point) *
              illuminance(lights[emitter.light], emitter, point);
   }
@@ -42,10 +42,16 @@ void addChannels(Image& image, const std::string& prefix, const SensorLayer& lay
 
 }  // namespace
 
-SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor,
+SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor, float error,
                           Progress& progress) {
   checkSensor(sensor);
-  const std::vector<Emitter> emitters = emittersOf(scene);
+  std::vector<Emitter> emitters;  // of lights without a size, and parts of skies
+  for (uint32_t i = 0; i < scene.lights.size(); ++i)
+    if (!hasSize(scene.lights[i])) {
+      const std::vector<Emitter> own = emittersOf(scene.lights[i], i);
+      emitters.insert(emitters.end(), own.begin(), own.end());
+    }
+  const LampExposure lamps(scene, rays, sensor, error);
   const std::vector<ShapedLight> lights = shapedLights(scene);
   const vec3 normal = sensor.normal();
   SensorLayer layer(std::size_t(sensor.resolution.x) * sensor.resolution.y, vec3(0));
@@ -60,7 +66,8 @@ SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor
                            sensor.v * ((float(row) + at.y) / float(sensor.resolution.y));
         sum += directAt(scene, rays, lights, emitters, point, normal);
       }
-      layer[std::size_t(row) * sensor.resolution.x + column] = sum / float(kShadowGrid * kShadowGrid);
+      layer[std::size_t(row) * sensor.resolution.x + column] =
+          sum / float(kShadowGrid * kShadowGrid) + lamps.onTexel({column, row});
     }
     progress.advance();
   });

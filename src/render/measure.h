@@ -13,8 +13,10 @@ namespace nephroid {
 // Illuminance (lux) of one kind of light on a sensor's texels, [row * resolution.x + column].
 using SensorLayer = std::vector<vec3>;
 
-// Direct light, by shadow rays from a grid of points in every texel to every emitter.
-SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor, Progress& progress);
+// Direct light, by shadow rays from points in every texel to every light; to lamps with a size as many as the
+// error asks for, which is that of a texel's light over what it has without shadows.
+SensorLayer measureDirect(const Scene& scene, const RayScene& rays, const Sensor& sensor, float error,
+                          Progress& progress);
 
 // Caustics, by beams that are cut at the sensor's own plane: without virtual planes and without a device.
 // Adds the counts of rays and beams to `stats`.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 
+#include "core/directions.h"
 #include "geometry/bounds.h"
 #include "lights/emitters.h"
 
@@ -258,6 +259,29 @@ MeshExtent extentOf(const Mesh& mesh) {
   return extent;
 }
 
+namespace {
+
+// m, the radius of a disk as large as what one of a light's emitters stands for; of light from afar its
+// tangent.
+float softnessOf(const Light& light) {
+  switch (light.type) {
+    case LightType::point:
+    case LightType::spot:
+      return light.radius;
+    case LightType::directional:
+      return std::tan(glm::radians(0.5f * light.angle));
+    case LightType::line:
+      return 0.5f * length(light.end - light.position) / float(light.samples);
+    case LightType::area:
+      return std::sqrt(length(cross(light.v, light.u)) / (kPi * float(light.grid.x * light.grid.y)));
+    case LightType::sky:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace
+
 std::vector<ShadowedLight> planShadowMaps(const Scene& scene, const std::vector<MeshExtent>& extents,
                                           uint32_t resolution) {
   Planner planner(scene, extents, resolution);
@@ -266,7 +290,10 @@ std::vector<ShadowedLight> planShadowMaps(const Scene& scene, const std::vector<
     const std::vector<EmitterRow> rows = emitterRowsOf(scene.lights[i], i);
     uint32_t together = 0;
     for (const EmitterRow& row : rows) together += row.count;
-    for (const EmitterRow& row : rows) lights.push_back(planner.plan(row, together));
+    for (const EmitterRow& row : rows) {
+      lights.push_back(planner.plan(row, together));
+      if (lights.back().mapCount > 0) lights.back().softness = softnessOf(scene.lights[i]);
+    }
   }
   return lights;
 }

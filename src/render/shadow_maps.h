@@ -46,6 +46,7 @@ struct ShadowedLight {
   uint32_t mapCount = 0;    // for each point
   uint32_t resolution = 1;  // texels along a side of a map
   ShadowProjection projection;
+  float softness = 0;  // m, radius of what an emitter stands for; of light from afar the tangent of its angle
   std::vector<ShadowMap> maps;  // the maps of the first emitter, then those of the next
 };
 

@@ -132,6 +132,8 @@ void warnAboutScene(const Scene& scene, SceneReport& report) {
 // What shapes a light besides its cone.
 std::string describeShape(const Scene& scene, const Light& light) {
   std::ostringstream text;
+  if (light.radius > 0) text << "  " << light.name << ": a ball of radius " << light.radius << " m\n";
+  if (light.angle > 0) text << "  " << light.name << ": a disk, seen under " << light.angle << " degrees\n";
   if (light.goboTexture != kNone) {
     const Texture& gobo = scene.textures[light.goboTexture];
     text << "  " << light.name << ": gobo " << gobo.name << " (" << gobo.width << " x " << gobo.height

@@ -222,6 +222,8 @@ void checkLight(const Light& light, std::size_t index, const Scene& scene) {
     part.notNegative("illuminance", light.illuminance);
   else
     part.notNegative("intensity", light.intensity);
+  part.within("radius", light.radius, 0, kLargestCoordinate);
+  part.within("angle", light.angle, 0, kWidestAngle);
   switch (light.type) {
     case LightType::point:
       return;

@@ -12,6 +12,9 @@ namespace nephroid {
 inline constexpr uint32_t kMostLineSamples = 4096;
 inline constexpr uint32_t kMostAreaSamples = 64;  // along a side
 
+inline constexpr float kSunAngle = 0.53f;   // degrees that the sun is seen under from the earth
+inline constexpr float kWidestAngle = 179;  // degrees, of a directional light
+
 enum class LightType { directional, point, spot, line, area, sky };
 
 // Light from all directions, infinitely far away. Columns are longitudes and rows are latitudes, in equal
@@ -36,12 +39,16 @@ struct Light {
   vec3 end{0};               // the other end of a line
   vec3 u{0}, v{0};           // m, the sides of an area, which shines to the side of cross(v, u)
   vec3 direction{0, -1, 0};  // unit, in which the light travels; for an area, its normal
-  vec3 intensity{1};      // cd; of the whole tube for a line, along its normal for an area; multiplies a sky
-  vec3 illuminance{1};    // lux on a facing surface (directional)
-  float innerAngle = 0;   // degrees, half angle of full intensity (spot)
-  float outerAngle = 45;  // degrees, half angle outside of which there is no light; 180: no cone
-  uint32_t samples = 8;   // points a line is replaced by
-  uvec2 grid{4};          // points an area is replaced by, along its sides
+  vec3 intensity{1};    // cd; of the whole tube for a line, along its normal for an area; multiplies a sky
+  vec3 illuminance{1};  // lux on a facing surface (directional)
+  // m, of a point or a spot: a ball that looks evenly bright, whose intensity is that of the whole. 0: a
+  // point.
+  float radius = 0;
+  float angle = 0;               // degrees that a directional light is seen under: a disk, evenly bright
+  float innerAngle = 0;          // degrees, half angle of full intensity (spot)
+  float outerAngle = 45;         // degrees, half angle outside of which there is no light; 180: no cone
+  uint32_t samples = 8;          // points a line is replaced by
+  uvec2 grid{4};                 // points an area is replaced by, along its sides
   uint32_t goboTexture = kNone;  // index of a spot's gobo in Scene::textures
   float goboRotation = 0;        // degrees, clockwise for who looks along the light
   uint32_t profile = kNone;      // index of a spot's profile in Scene::profiles; its peak is `intensity`

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 
+#include "lights/lamp_light.h"
 #include "scene/volume.h"
 
 namespace nephroid {
 
 bool hasCaster(const Scene& scene) {
   return anyMaterial(scene, [](const Material& material) { return material.isCaster(); });
+}
+
+bool hasLampWithASize(const Scene& scene) {
+  return hasCaster(scene) && std::ranges::any_of(scene.lights, hasSize);
 }
 
 bool hasGlass(const Scene& scene) {

@@ -21,6 +21,7 @@ bool anyMaterial(const Scene& scene, const Test& test) {
 }
 
 // Whether a scene has ...
+bool hasLampWithASize(const Scene& scene);  // and a caster
 bool hasCaster(const Scene& scene);
 bool hasGlass(const Scene& scene);  // or water
 bool hasDispersion(const Scene& scene);
@@ -35,6 +36,9 @@ inline constexpr Omission kReflection{
     "Reflection at glass, outside, inside and total, unless --paths all asks for it, and then most of "
     "what is reflected after the fourth surface at which it could be reflected or transmitted",
     hasGlass};
+inline constexpr Omission kSizeOfLamps{
+    "The size of lamps: balls and the sun's disk are points, lines and areas are rows of points",
+    hasLampWithASize};
 inline constexpr Omission kSpectrum{
     "The spectrum: light that disperses goes in three bands, red, green and blue, not by wavelength",
     hasDispersion};

@@ -397,6 +397,11 @@ const Contacts& RayScene::contacts() const {
   return impl_->contacts;
 }
 
+Ray RayScene::fromMeter(vec3 place, vec3 direction, float cosine, float distance) const {
+  const float near = 2 * largestRounding() / std::max(cosine, kGrazingCosine);
+  return {place, direction, near, beforeLamp(distance)};
+}
+
 uint32_t RayScene::patchOf(uint32_t mesh, uint32_t triangle) const {
   return impl_->meshes[mesh].triangles[triangle].patch;
 }

@@ -93,6 +93,10 @@ class RayScene {
   void addTouching(vec3 direction, Hit& hit) const;
   const Contacts& contacts() const;
 
+  // The ray from a place of a meter, which may lie on a surface, toward a lamp at `distance` m. `cosine`: to
+  // the meter's normal.
+  Ray fromMeter(vec3 place, vec3 direction, float cosine, float distance) const;
+
   // The number of the smooth surface of a triangle. `mesh`: index in the scene.
   uint32_t patchOf(uint32_t mesh, uint32_t triangle) const;
 

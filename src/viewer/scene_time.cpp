@@ -33,6 +33,8 @@ void follow(Light& light, const Light& was, const Light& is) {
   follow(light.direction, was.direction, is.direction);
   follow(light.innerAngle, was.innerAngle, is.innerAngle);
   follow(light.outerAngle, was.outerAngle, is.outerAngle);
+  follow(light.radius, was.radius, is.radius);
+  follow(light.angle, was.angle, is.angle);
   follow(light.goboRotation, was.goboRotation, is.goboRotation);
   follow(light.skyRotation, was.skyRotation, is.skyRotation);
   followStrength(light.intensity, was.intensity, is.intensity);

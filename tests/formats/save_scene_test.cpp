@@ -56,6 +56,8 @@ void expectAlike(const Scene& a, const Scene& b) {
     const Light& other = b.lights[i];
     EXPECT_TRUE(isNear(one.position, other.position)) << one.name;
     EXPECT_TRUE(isNear(one.end, other.end)) << one.name;
+    EXPECT_EQ(one.radius, other.radius) << one.name;
+    EXPECT_EQ(one.angle, other.angle) << one.name;
     EXPECT_LT(distance(one.direction, other.direction), 1e-5f) << one.name;
     if (one.type == LightType::directional)
       EXPECT_TRUE(isNear(one.illuminance, other.illuminance)) << one.name;
@@ -163,6 +165,18 @@ TEST(SavedScene, AddsKeysAndSectionsThatWereNotThere) {
   const SavedScene saved = savedScene(text, before, after);
   EXPECT_NE(saved.text.find("# clear"), std::string::npos);
   expectAlike(sceneOf(saved.text), after);
+}
+
+TEST(SavedScene, LampsKeepTheirSize) {
+  const std::string text =
+      "[[light]]\ntype = \"point\"\nposition = [0, 3, 0]\nintensity = 1\n[[light]]\ntype = \"directional\"\n"
+      "direction = [0, -1, 0]\nilluminance = 1\nangle = \"sun\"\n";
+  const Scene before = sceneOf(text);
+  Scene after = before;
+  after.lights[0].radius = 0.25f;
+  expectAlike(sceneOf(savedScene(text, before, after).text), after);
+  after.lights[1].angle = 2;
+  expectAlike(sceneOf(savedScene(text, before, after).text), after);
 }
 
 // A moving head that is dimmed and zoomed: what is not touched goes on moving.

@@ -109,6 +109,40 @@ resolution = [32, 16]
   EXPECT_EQ(scene.sensors[0].normal(), vec3(0, 1, 0));
 }
 
+TEST_F(SceneFile, LampsHaveASize) {
+  const Scene scene = load(R"(
+[[light]]
+type = "point"
+position = [2, 4, 1]
+intensity = 1
+radius = 0.25
+[[light]]
+type = "spot"
+position = [0, 4, 0]
+target = [0, 0, 0]
+intensity = 1
+radius = 0.5
+[[light]]
+type = "directional"
+direction = [0, -2, 0]
+illuminance = 1
+angle = "sun"
+[[light]]
+type = "directional"
+direction = [0, -2, 0]
+illuminance = 1
+angle = 12.5
+)");
+  ASSERT_EQ(scene.lights.size(), 4u);
+  EXPECT_EQ(scene.lights[0].radius, 0.25f);
+  EXPECT_EQ(scene.lights[1].radius, 0.5f);
+  EXPECT_EQ(scene.lights[2].angle, 0.53f);
+  EXPECT_EQ(scene.lights[3].angle, 12.5f);
+  const std::string told = describe(scene, diagnose(scene));
+  EXPECT_NE(told.find("a ball of radius 0.25 m"), std::string::npos);
+  EXPECT_NE(told.find("a disk, seen under 12.5 degrees"), std::string::npos);
+}
+
 TEST_F(SceneFile, UnknownKeysAreNamedWithTheirLineAndTheNearest) {
   expectError("[camera]\nposition = [0, 0, 1]\nfovv = 3\n", {"scene.toml:3", "\"fovv\"", "\"fov\""});
   expectError("[camra]\n", {"scene.toml:1", "\"camra\"", "\"camera\""});
@@ -172,6 +206,13 @@ TEST_F(SceneFile, ValuesOutOfRangeAreRefused) {
            light("type = \"spot\"\nposition = [0, 1, 0]\nintensity = 1\ndirection = [0, -1, 0]\nouter_angle "
                  "= 91"),
            light("type = \"line\"\nfrom = [0, 1, 0]\nto = [0, 1, 0]\nintensity = 1"),
+           light("type = \"point\"\nposition = [0, 1, 0]\nintensity = 1\nradius = -0.1"),
+           light("type = \"point\"\nposition = [0, 1, 0]\nintensity = 1\nradius = nan"),
+           light("type = \"point\"\nposition = [0, 1, 0]\nintensity = 1\nangle = 1"),
+           light("type = \"directional\"\ndirection = [0, -1, 0]\nilluminance = 1\nangle = 180"),
+           light("type = \"directional\"\ndirection = [0, -1, 0]\nilluminance = 1\nangle = -1"),
+           light("type = \"directional\"\ndirection = [0, -1, 0]\nilluminance = 1\nangle = \"moon\""),
+           light("type = \"directional\"\ndirection = [0, -1, 0]\nilluminance = 1\nradius = 1"),
            sensor("u = [0, 0, 0]\nv = [0, 0, 1]"),
            sensor("u = [1, 0, 0]\nv = [2, 0, 0]"),
            sensor("u = [1, 0, 0]\nv = [0, 0, 1]\nresolution = [0, 8]"),

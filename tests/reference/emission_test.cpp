@@ -239,5 +239,35 @@ TEST(Emission, TowardNothingIsDark) {
   EXPECT_FALSE(Lights(scene, Aim::everywhere).isDark());
 }
 
+// What passes through an opening before a lamp with a size that is wholly in view is what a point would send.
+TEST(Emission, LampWithASizeSendsAsMuchAsAPoint) {
+  const vec3 opening(0, 0, 0);
+  constexpr float kRadius = 0.4f;
+  Light lamp = pointLight({0.4f, 1.5f, 0});
+  lamp.radius = 0.3f;
+  Light disk = sun({0.2f, -1, 0}, 1000);
+  disk.angle = 15;
+  for (const Light& light : {lamp, disk}) {
+    Scene scene;
+    scene.lights = {light};
+    add(scene, ball(0.5f), glass());
+    const Lights lights(scene, Aim::casters);
+    const vec3 toward = light.type == LightType::directional ? -light.direction : normalize(light.position);
+    Random random(3);
+    double flux = 0;
+    for (int i = 0; i < kPhotons; ++i) {
+      const EmittedPhoton photon = emitted(lights, random);
+      const float along = dot(opening - photon.origin, toward) / dot(photon.direction, toward);
+      const vec3 place = photon.origin + along * photon.direction - opening;
+      if (length(place) < kRadius) flux += double(photon.flux.x) / kPhotons;
+    }
+    const double away = double(length(light.position));
+    const double expected = light.type == LightType::directional
+                                ? 1000 * double(kPi) * double(kRadius) * double(kRadius)
+                                : 100 * kTurn * (1 - away / std::hypot(away, double(kRadius)));
+    EXPECT_NEAR(flux, expected, 0.01 * expected);  // of half of the photons: 0.2 %
+  }
+}
+
 }  // namespace
 }  // namespace nephroid

@@ -247,7 +247,8 @@ void PrintTo(const LineCase& line, std::ostream* out) {
 
 class LineShadow : public Frame, public testing::WithParamInterface<LineCase> {};
 
-TEST_P(LineShadow, IsThatOfEachOfItsPoints) {
+// A line of three points is as soft as the whole line.
+TEST_P(LineShadow, IsThatOfAllOfTheLine) {
   Scene scene = floorScene();
   const vec3 center(0.3f, 0.6f, 0.1f), halfSize(0.31f, 0.1f, 0.23f);
   scene.meshes.push_back(box(halfSize));
@@ -257,27 +258,32 @@ TEST_P(LineShadow, IsThatOfEachOfItsPoints) {
   line.samples = 3;
   scene.lights.push_back(line);
   const Image image = layersOf(scene);
+  line.samples = 96;
   const float margin = 0.05f;  // m: more than the filter reaches, and the point is moved off the floor
   std::size_t partlyShaded = 0;
-  for (std::size_t i = 0; i < image.pixelCount() && !HasFatalFailure(); ++i) {
+  double squares = 0, whole = 0;
+  for (std::size_t i = 0; i < image.pixelCount(); ++i) {
     const vec3 p = floorPoint(scene, i);
     if (segmentMeetsBox(p, scene.camera.position, center, halfSize + margin)) continue;
-    float lux = 0;
+    float lux = 0, unshaded = 0;
     uint32_t shading = 0;
-    bool isClear = true;
     for (const Emitter& point : emittersOf(line)) {
       const vec3 toLight = point.position - p;
-      const bool isShaded = segmentMeetsBox(p, point.position, center, halfSize - margin);
-      isClear = isClear && isShaded == segmentMeetsBox(p, point.position, center, halfSize + margin);
+      const bool isShaded = segmentMeetsBox(p, point.position, center, halfSize);
       shading += isShaded;
-      if (!isShaded) lux += point.power.y * toLight.y / std::pow(length(toLight), 3.0f);
+      const float own = point.power.y * toLight.y / std::pow(length(toLight), 3.0f);
+      unshaded += own;
+      if (!isShaded) lux += own;
     }
-    if (!isClear) continue;
-    ASSERT_NEAR(image.find("direct.G")->at(i), 0.4f / kPi * lux, 2 * kFloat * lux)
-        << "pixel " << i % kSize.x << ", " << i / kSize.x;
-    partlyShaded += shading > 0 && shading < line.samples;
+    if (shading == 0 || shading == line.samples) continue;
+    const float off = image.find("direct.G")->at(i) / (0.4f / kPi) - lux;
+    squares += double(off * off);
+    whole += double(unshaded * unshaded);
+    ++partlyShaded;
   }
   EXPECT_GT(partlyShaded, 50u);
+  // What stands between is not all equally far away, and one of the lines begins within the block.
+  EXPECT_LT(std::sqrt(squares / whole), 0.13);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lines, LineShadow,

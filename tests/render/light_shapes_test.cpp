@@ -49,7 +49,7 @@ void expectAsReference(const Scene& scene) {
   const TracedSource source(scene, rays);
   Progress progress;
   Stats stats;
-  const SensorLayer direct = measureDirect(scene, rays, sensor, progress);
+  const SensorLayer direct = measureDirect(scene, rays, sensor, 0.01f, progress);
   const SensorLayer caustics =
       measureBeams(scene, rays, source, sensor, Paths::transmission, 2, progress, stats);
   ReferenceSettings settings;

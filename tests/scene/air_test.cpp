@@ -105,7 +105,7 @@ TEST(Air, KeepsLumensInAClosedBox) {
         if (side < 0) std::swap(u, v);
         const Sensor wall{"wall", corner, u, v, uvec2(64)};
         ASSERT_LT(wall.normal()[axis] * side, 0);
-        for (const vec3 lux : measureDirect(scene, rays, wall, progress))
+        for (const vec3 lux : measureDirect(scene, rays, wall, 0.01f, progress))
           arriving += double(lux.y) * kSide * kSide / (64 * 64);
       }
     const double cosInner = std::cos(glm::radians(30.0)), cosOuter = std::cos(glm::radians(50.0));

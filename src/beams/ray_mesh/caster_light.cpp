@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "beams/incident_flux.h"
+#include "geometry/bounds.h"
 #include "geometry/curved_triangle.h"
 #include "lights/emitters.h"
+#include "lights/lamp_light.h"
 #include "lights/light_in_air.h"
 
 namespace nephroid {
@@ -45,29 +47,50 @@ vec3 allThree(vec2 weights) {
 
 }  // namespace
 
-std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, MediaTable& media) {
+std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, float error,
+                                          MediaTable& media) {
   const std::vector<const Material*> materials = materialsOf(scene);
   const int channels = disperses(scene) ? 3 : 1;
   std::vector<CasterLight> all;
-  for (const Emitter& emitter : emittersOf(scene)) {
-    MediumStack around;
-    if (emitter.type != kEmitterDirectional) around = mediaAround(rays, materials, emitter.position);
+  const auto add = [&](uint32_t object, const LampCell& cell, const MediumStack& around) {
+    for (int channel = 0; channel < channels; ++channel) {
+      CasterLight light;
+      light.object = object;
+      light.emitter = cell.emitter;
+      light.light = shapedLight(scene, scene.lights[cell.emitter.light]);
+      light.spread = cell.spread;
+      if (cell.spread.hasSize()) light.light.lamp.power = cell.emitter.power;
+      light.medium = media.numberOf(around);
+      light.channel = uint8_t(channel);
+      if (channels == 3) {
+        light.bandColor = vec3(0);
+        light.bandColor[channel] = 1;
+      }
+      light.facing = around.contains(object) ? -1.0f : 1.0f;
+      all.push_back(light);
+    }
+  };
+  const auto around = [&](const Emitter& emitter) {
+    return emitter.type == kEmitterDirectional ? MediumStack{}
+                                               : mediaAround(rays, materials, emitter.position);
+  };
+  for (uint32_t index = 0; index < scene.lights.size(); ++index) {
+    const Light& lamp = scene.lights[index];
+    if (!hasSize(lamp)) {
+      for (const Emitter& emitter : emittersOf(lamp, index)) {
+        const MediumStack stack = around(emitter);
+        for (uint32_t object = 0; object < scene.objects.size(); ++object)
+          if (scene.isCaster(scene.objects[object])) add(object, {emitter, {}}, stack);
+      }
+      continue;
+    }
     for (uint32_t object = 0; object < scene.objects.size(); ++object) {
       if (!scene.isCaster(scene.objects[object])) continue;
-      for (int channel = 0; channel < channels; ++channel) {
-        CasterLight light;
-        light.object = object;
-        light.emitter = emitter;
-        light.light = shapedLight(scene, scene.lights[emitter.light]);
-        light.medium = media.numberOf(around);
-        light.channel = uint8_t(channel);
-        if (channels == 3) {
-          light.bandColor = vec3(0);
-          light.bandColor[channel] = 1;
-        }
-        light.facing = around.contains(object) ? -1.0f : 1.0f;
-        all.push_back(light);
-      }
+      const Placement& placement = scene.objects[object].placement;
+      const Sphere sphere = boundingSphere(scene.meshOf(scene.objects[object]));
+      for (const LampCell& cell :
+           lampCells(lamp, index, placement.point(sphere.center), placement.scale * sphere.radius, error))
+        add(object, cell, around(cell.emitter));
     }
   }
   return all;

@@ -5,6 +5,7 @@
 
 #include "beams/ray_mesh/path_tree.h"
 #include "core/color.h"
+#include "lights/lamp_cells.h"
 #include "lights/light_intensity.h"
 
 namespace nephroid {
@@ -13,14 +14,17 @@ struct CasterLight {
   uint32_t object = 0;
   Emitter emitter{};
   ShapedLight light;
+  LampSpread spread;    // of what the emitter stands for, where the lamp has a size
   uint16_t medium = 0;  // that the emitter stands in, of the media table
   uint8_t channel = 0;
   vec3 bandColor{1};  // the part of each color channel that travels in this band
   float facing = 1;   // -1 where the light stands inside the caster and meets its triangles from behind
 };
 
-// All that casters get, lamp by lamp. Where materials disperse, one for each channel.
-std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, MediaTable& media);
+// All that casters get, lamp by lamp. Where materials disperse, one for each channel. `error`: that the light
+// may have, of its mean.
+std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, float error,
+                                          MediaTable& media);
 
 // A point of a triangle of a caster's mesh, by weights of its second and third corner. World space.
 struct EntryPoint {

@@ -53,6 +53,7 @@ LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const R
   for (EdgeTable& table : middles_) table.clear();
   rims_.resize(scene_.meshes.size());
   for (const CasterLight& light : lights_) {
+    tree.hasSpreads = tree.hasSpreads || light.spread.hasSize();
     const uint32_t mesh = scene_.objects[light.object].mesh;
     if (!rims_[mesh]) rims_[mesh].emplace(scene_.meshes[mesh]);
   }
@@ -113,9 +114,14 @@ void LightSheets::settleCorners() {
     }
   });
   stats.shadowRays += count;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
     firstOfCorner_[firstCorner + i] =
         tree.addFirst(begun[i], mayTouch ? places[i].touched() : std::span<const Touching>{});
+    const CasterLight& light = lights_[pending_[i].light];
+    if (light.spread.hasSize())
+      tree.spreads.back() = firstSpread(light.spread, light.emitter.type == kEmitterDirectional,
+                                        begun[i].direction, begun[i].length);
+  }
   pending_.clear();
 }
 
@@ -275,7 +281,8 @@ void LightSheets::cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts) 
 }
 
 std::size_t LightSheets::bytes() const {
-  std::size_t sum = tree.nodes.capacity() * sizeof(PathNode) + firstOfCorner_.capacity() * sizeof(uint32_t);
+  std::size_t sum = tree.nodes.capacity() * sizeof(PathNode) + tree.spreads.capacity() * sizeof(PathSpread) +
+                    firstOfCorner_.capacity() * sizeof(uint32_t);
   for (const EdgeTable& table : middles_) sum += table.bytes();
   for (const std::vector<Sheet>* list :
        {&memory_.sheets, &memory_.next, &memory_.mixed, &memory_.landed, &memory_.worst})

@@ -95,6 +95,7 @@ class LightSheets {
            3.0f;
   }
   std::size_t bytes() const;
+  const LampSpread& spreadOf(const Sheet& sheet) const { return lights_[sheet.light].spread; }
 
   PathTree tree;
   RayMeshStats stats;

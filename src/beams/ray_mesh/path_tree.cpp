@@ -79,6 +79,7 @@ uint32_t PathTree::childOf(uint32_t parent, uint8_t way, std::vector<uint32_t>& 
   node.medium = way == kTransmitted ? from.beyond : from.before;
   nodes[parent].child[way] = index;
   nodes.push_back(node);
+  if (hasSpreads) spreads.emplace_back();
   fresh.push_back(index);
   return index;
 }
@@ -97,6 +98,7 @@ void PathTree::setSides(PathNode& node, std::span<const Touching> touching) {
 
 uint32_t PathTree::addFirst(const PathNode& node, std::span<const Touching> touching) {
   nodes.push_back(node);
+  if (hasSpreads) spreads.emplace_back();
   PathNode& first = nodes.back();
   setSides(first, touching);
   first.signature = signatureOf(0, first);
@@ -141,8 +143,54 @@ void PathTree::bendOne(PathNode& node) const {
 
 void PathTree::bend(std::span<const uint32_t> fresh) {
   oneapi::tbb::parallel_for(IndexRange(0, fresh.size(), 512), [&](const IndexRange& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) bendOne(nodes[fresh[i]]);
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      bendOne(nodes[fresh[i]]);
+      if (hasSpreads) spreads[fresh[i]] = bentSpread(nodes[fresh[i]]);
+    }
   });
+}
+
+// What bendOne does to the direction.
+PathSpread PathTree::bentSpread(const PathNode& node) const {
+  const PathNode& from = nodes[node.parent];
+  PathSpread before = spreads[node.parent], after;
+  const vec3 smooth = facingNormal(from.direction, from.normal, from.geometricNormal);
+  const float side = dot(from.direction, from.geometricNormal) < 0 ? 1.0f : -1.0f;
+  const vec3 normal = node.isFlat ? side * from.geometricNormal : smooth;
+  for (vec3& turn : before.normal) turn = node.isFlat ? vec3(0) : dot(smooth, from.normal) < 0 ? -turn : turn;
+  const uint32_t inside = mediaTable_.top(from.before), beyond = mediaTable_.top(from.beyond);
+  if (node.way == kReflected) {
+    reflectSpread(before, from.direction, normal, after);
+  } else if (materials_[from.object]->thinWalled || inside == beyond) {
+    std::ranges::copy(before.direction, after.direction);
+  } else {
+    const float eta = iorOf(materials_, inside, node.channel) / iorOf(materials_, beyond, node.channel);
+    refractSpread(before, from.direction, normal, eta, after);
+  }
+  return after;
+}
+
+// Of a node that was traced.
+void PathTree::carryTo(const PathNode& node, const Hit& hit, PathSpread& spread) const {
+  const bool isAtCaster = node.state == PathState::atCaster;
+  if (!isAtCaster && node.state != PathState::arrived) return;
+  const Mesh& mesh = scene_.meshOf(scene_.objects[node.object]);
+  const vec3 normal = !isAtCaster && target_.isPlane ? target_.plane.normal
+                      : isAtCaster && mesh.isCurved  ? node.normal
+                                                     : node.geometricNormal;
+  const float length = glm::distance(nodes[node.parent].position, node.position);
+  carrySpread(spreads[node.parent], node.direction, length, normal, spread);
+  if (!isAtCaster) return;
+  // In the mesh's own space, and back.
+  const Placement& placement = scene_.objects[node.object].placement;
+  const mat3 toWorld = glm::mat3_cast(placement.rotation), toMesh = transpose(toWorld);
+  const uvec3 c = mesh.triangles[hit.triangle];
+  PathSpread local;
+  for (int i = 0; i < 2; ++i) local.position[i] = toMesh * spread.position[i] / placement.scale;
+  turnNormals(mat3(mesh.positions[c.x], mesh.positions[c.y], mesh.positions[c.z]),
+              mat3(mesh.normals[c.x], mesh.normals[c.y], mesh.normals[c.z]),
+              vec3(1 - hit.barycentric.x - hit.barycentric.y, hit.barycentric), local);
+  for (int i = 0; i < 2; ++i) spread.normal[i] = toWorld * local.normal[i];
 }
 
 // What is left of light after `length` of the medium that a path is in.
@@ -215,6 +263,7 @@ void PathTree::trace(std::span<const uint32_t> bent) {
         finish(node, batch[i], hits[i]);
         if (hits[i].touchingCount > 0)
           joints_.push_back({bent[first + i], hits[i].touching, hits[i].touchingCount});
+        if (hasSpreads) carryTo(node, hits[i], spreads[bent[first + i]]);
         const bool tellsSurface =
             node.state == PathState::arrived && !target_.isPlane && hasFewFaces_[node.object];
         node.signature = signatureOf(beforeFlat(nodes[node.parent], node), node, tellsSurface);

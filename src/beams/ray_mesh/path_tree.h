@@ -10,6 +10,7 @@
 
 #include "beams/footprint.h"
 #include "beams/ray_mesh/media_table.h"
+#include "beams/ray_mesh/path_spread.h"
 #include "trace/paths.h"
 #include "trace/ray_scene.h"
 
@@ -90,6 +91,8 @@ class PathTree {
   void trace(std::span<const uint32_t> bent);
 
   std::vector<PathNode> nodes;
+  bool hasSpreads = false;          // some lamp has a size
+  std::vector<PathSpread> spreads;  // of the nodes, then
   uint64_t raysTraced = 0;
 
  private:
@@ -104,6 +107,8 @@ class PathTree {
   void finish(PathNode& node, const Ray& ray, const Hit& hit) const;
   void setSidesOf(std::span<const uint32_t> traced);
   void setSides(PathNode& node, std::span<const Touching> touching);
+  PathSpread bentSpread(const PathNode& node) const;
+  void carryTo(const PathNode& node, const Hit& hit, PathSpread& spread) const;
 
   vec3 leftAfter(uint16_t medium, vec3 start, vec3 direction, float length) const;
 

@@ -8,6 +8,9 @@
 namespace nephroid {
 namespace {
 
+// Beams that are widened by the size of their lamp, each of which becomes up to kLampPlaces.
+constexpr uint64_t kMostWidened = 500'000;
+
 // Adds what was told of some lamps to what was told of others.
 void addStats(const RayMeshStats& some, RayMeshStats& all) {
   all.rays += some.rays;
@@ -42,11 +45,13 @@ void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSetting
   mesh.paths.clear();
   mesh.stats = {};
   MediaTable media(rays);
-  const std::vector<CasterLight> lights = lightOntoCasters(scene, rays, media);
+  const std::vector<CasterLight> lights = lightOntoCasters(scene, rays, settings.error, media);
   const auto groups = lightGroups(scene, lights, settings.mostBytes);
   for (const std::span<const CasterLight> group : groups) {
     RayMeshSettings own = settings;
     own.mostBeams = std::max<uint64_t>(settings.mostBeams * group.size() / lights.size(), 1);
+    if (std::ranges::any_of(group, [](const CasterLight& light) { return light.spread.hasSize(); }))
+      own.mostBeams = std::min(own.mostBeams, kMostWidened);
     LightSheets sheets(scene, rays, own, group, media, memory);
     sheets.tree.nodes = std::move(nodes);
     sheets.tree.nodes.clear();

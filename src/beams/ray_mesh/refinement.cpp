@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/index_range.h"
 
@@ -30,6 +31,12 @@ constexpr float kChosen = 2;
 // Area and side of a triangle whose corners are 1 off its middle.
 constexpr double kTangentArea = 1.299;
 constexpr float kSideOfTangent = 1.732f;
+// Variance along an axis of such a triangle.
+constexpr float kTangentVariance = 1.0f / 8;
+// Of the standard deviation of a lamp's image, the detail that is left in light that is smeared by it.
+constexpr float kDetailOfBlur = 0.7f;
+// Of the standard deviation, how far the image of a lamp reaches from its middle, at most.
+constexpr float kReachOfBlur = 2.5f;
 
 // Unit, on the side of the receiver that the path's light lands on.
 vec3 litNormal(const PathNode& node) {
@@ -88,6 +95,8 @@ Landing Refinement::landingOf(const Sheet& sheet) const {
   landing.width = landing.longest > 0 ? doubled / landing.longest : 0;
   landing.detail = std::clamp(settings_.detailPerMeter * distance(a.position, settings_.eye),
                               settings_.detail, std::max(settings_.mostDetail, settings_.detail));
+  landing.blur = blurOf(sheet);
+  landing.detail = std::max(landing.detail, kDetailOfBlur * landing.blur.x);
   landing.isMirrored = dot(across, a.direction) < 0;
   if (settings_.target.isPlane) {
     const PlaneGrid& grid = settings_.target.plane;
@@ -98,10 +107,42 @@ Landing Refinement::landingOf(const Sheet& sheet) const {
       low = min(low, texel);
       high = max(high, texel);
     }
+    // And as far as the lamp's size smears it.
+    const vec2 about = kReachOfBlur * landing.blur.y * vec2(length(grid.axisU), length(grid.axisV));
+    low -= about;
+    high += about;
     landing.isWanted = glm::all(glm::lessThan(low, settings_.wantedHigh)) &&
                        glm::all(glm::greaterThan(high, settings_.wantedLow));
   }
   return landing;
+}
+
+// Where a sheet's corners land for another place on its lamp, for each standard deviation along the lamp's
+// axes.
+BeamShift Refinement::shiftOf(const Sheet& sheet) const {
+  BeamShift shift;
+  const LampSpread& lamp = sheets_.spreadOf(sheet);
+  for (int c = 0; c < 3; ++c) {
+    const PathNode& node = sheets_.tree.nodes[sheet.node[c]];
+    const float way = distance(sheets_.tree.nodes[node.parent].position, node.position);
+    const PathSpread& spread = sheets_.tree.spreads[sheet.node[c]];
+    for (int i = 0; i < 2; ++i) {
+      const vec3 moved = lamp.deviation[i] * spread.position[i];
+      // It is no straight line where it is long.
+      shift.corner[c][i] = moved * std::min(1.0f, 0.5f * way / std::max(length(moved), 1e-30f));
+    }
+  }
+  return shift;
+}
+
+vec2 Refinement::blurOf(const Sheet& sheet) const {
+  if (!sheets_.spreadOf(sheet).hasSize()) return vec2(0);
+  const BeamShift shift = shiftOf(sheet);
+  const vec3 u = (shift.corner[0][0] + shift.corner[1][0] + shift.corner[2][0]) / 3.0f;
+  const vec3 v = (shift.corner[0][1] + shift.corner[1][1] + shift.corner[2][1]) / 3.0f;
+  const float mean = 0.5f * (dot(u, u) + dot(v, v));
+  const float apart = std::hypot(0.5f * (dot(u, u) - dot(v, v)), dot(u, v));
+  return sqrt(max(vec2(mean - apart, mean + apart), vec2(0)));
 }
 
 void Refinement::describe(const std::vector<Sheet>& landed) {
@@ -287,7 +328,8 @@ LandedBeam Refinement::beamOf(const Sheet& sheet, const Landing& landing) const 
   const PathNode& first = sheets_.tree.nodes[sheet.node[0]];
   mat3 tangent(0);
   if (beam.isPath) {
-    const float radius = pathRadius(sheet, landing);
+    const float blur = 0.5f * dot(landing.blur, landing.blur);
+    const float radius = std::sqrt(std::pow(pathRadius(sheet, landing), 2.0f) + blur / kTangentVariance);
     const bool isPlane = settings_.target.isPlane;
     tangent = tangentFrame(isPlane ? settings_.target.plane.normal : first.geometricNormal, radius);
     beam.width = 1.5f * radius;
@@ -309,6 +351,12 @@ LandedBeam Refinement::beamOf(const Sheet& sheet, const Landing& landing) const 
   return beam;
 }
 
+// How many beams a sheet becomes: so many that the lamp's image has no gaps.
+BeamCopies Refinement::copiesOf(const Sheet& sheet, const Landing& landing) const {
+  if (sheet.cuts == kWhole || landing.blur.y <= 0) return {};
+  return copiesFor(landing.blur.y, landing.detail, landing.longest, sheets_.spreadOf(sheet).isOneOfMore);
+}
+
 void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) {
   std::vector<uint32_t> wanted;
   wanted.reserve(landed.size());
@@ -324,15 +372,31 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) {
     ++stats.beamsByLevel[std::min<std::size_t>(landed[i].cuts, kToldLevels - 1)];
     ++stats.beamsByBranch[std::min<std::size_t>(landed[i].generation, kToldLevels - 1)];
   }
-  const std::size_t first = mesh.beams.size();
-  mesh.beams.resize(first + wanted.size());
+  // Of each, the first of the beams that it becomes.
+  std::vector<std::size_t> firsts(wanted.size() + 1, mesh.beams.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    firsts[i + 1] = firsts[i] + copiesOf(landed[wanted[i]], landings_[wanted[i]]).count;
+  mesh.beams.resize(firsts.back());
   oneapi::tbb::parallel_for(IndexRange(0, wanted.size(), 512), [&](const IndexRange& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
-      mesh.beams[first + i] = beamOf(landed[wanted[i]], landings_[wanted[i]]);
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Sheet& sheet = landed[wanted[i]];
+      const LandedBeam beam = beamOf(sheet, landings_[wanted[i]]);
+      const std::span<LandedBeam> beams = std::span(mesh.beams).subspan(firsts[i], firsts[i + 1] - firsts[i]);
+      const vec3 normal = settings_.target.isPlane ? settings_.target.plane.normal
+                                                   : sheets_.tree.nodes[sheet.node[0]].geometricNormal;
+      if (beams.size() == 1) {
+        beams[0] = beam;
+      } else {
+        const bool isMixed = copiesOf(sheet, landings_[wanted[i]]).areMixed;
+        widen(beam, shiftOf(sheet), sheets_.spreadOf(sheet), normal,
+              isMixed ? std::optional(i) : std::nullopt, beams);
+      }
+    }
   });
-  for (const uint32_t i : wanted) {
-    const Sheet& sheet = landed[i];
-    mesh.paths.push_back({{sheet.node[0], sheet.node[1], sheet.node[2]}, sheet.cuts});
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Sheet& sheet = landed[wanted[i]];
+    mesh.paths.insert(mesh.paths.end(), firsts[i + 1] - firsts[i],
+                      {{sheet.node[0], sheet.node[1], sheet.node[2]}, sheet.cuts});
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "beams/ray_mesh/light_sheets.h"
+#include "beams/ray_mesh/widened_beams.h"
 
 namespace nephroid {
 
@@ -12,7 +13,8 @@ struct Landing {
   float area = 0;           // m2
   float width = 0;          // m, across its longest side
   float longest = 0;        // m
-  float detail = 0;         // m, of a receiver's point there
+  float detail = 0;         // m, of a receiver's point there, or of what the lamp's size leaves
+  vec2 blur{0};             // m, standard deviations of the lamp's image, the least first
   bool isMirrored = false;  // its corners have changed sides: light is past an odd number of folds
   bool isWanted = true;
 };
@@ -44,6 +46,9 @@ class Refinement {
 
  private:
   LandedBeam beamOf(const Sheet& sheet, const Landing& landing) const;
+  BeamCopies copiesOf(const Sheet& sheet, const Landing& landing) const;
+  vec2 blurOf(const Sheet& sheet) const;
+  BeamShift shiftOf(const Sheet& sheet) const;
   void describe(const std::vector<Sheet>& landed);
   void include(const Sheet& sheet, const Landing& landing, int sign);
   Landing landingOf(const Sheet& sheet) const;

@@ -21,8 +21,8 @@ constexpr SettingsOwner kOwners[] = {
     settingsOwner<IlluminationTextureSettings>("illumination-textures", kSettings), kPlaneSettingsOwner};
 
 constexpr Omission kOmissions[] = {
-    omissions::kReflection,  omissions::kSpectrum,   omissions::kFarFromMean,
-    omissions::kPlaneDetail, omissions::kScattering,
+    omissions::kReflection,  omissions::kSpectrum,    omissions::kSizeOfLamps,
+    omissions::kFarFromMean, omissions::kPlaneDetail, omissions::kScattering,
 };
 
 PlaneSet planTextures(const Scene&, const LightPortion& portion, std::span<const ReceiverBox> boxes,

@@ -359,6 +359,7 @@ constexpr Omission kOmissions[] = {
      hasNearLight},
     {"Reflection at glass, outside, inside and total, unless --paths all asks for it", hasGlass},
     omissions::kSpectrum,
+    omissions::kSizeOfLamps,
     {"Water and sheets without a volume, which cast no caustics here", hasWaterOrSheet},
     {"Detail finer than a cell of the volume, and between the light directions it was made for", hasCaster},
     omissions::kScattering,

@@ -280,6 +280,7 @@ constexpr SettingsOwner kOwners[] = {settingsOwner<LightVolumeSettings>("light-v
 constexpr Omission kOmissions[] = {
     omissions::kReflection,
     omissions::kSpectrum,
+    omissions::kSizeOfLamps,
     {"Detail between the rays of a caster's vertices; where receivers hide each other from the light, "
      "that between beams",
      hasCaster},

@@ -64,6 +64,7 @@ constexpr SettingsOwner kOwners[] = {settingsOwner<SlicedImageSettings>("sliced-
 constexpr Omission kOmissions[] = {
     omissions::kReflection,
     omissions::kSpectrum,
+    omissions::kSizeOfLamps,
     {"Light that the camera does not see along the mean direction in which it sees the light: on surfaces "
      "that another receiver hides there or that face away, as glass and mirrors may show them",
      hasCaster},
