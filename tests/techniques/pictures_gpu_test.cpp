@@ -33,7 +33,7 @@ class TechniquePicturesGpuTest : public GpuTest {
   }
 
   std::vector<float> measure(const Scene& scene, const Sensor& sensor) {
-    TechniqueSettings settings;
+    TechniqueSettings settings = settingsOf("illumination-textures");
     settings.transport.directions = 33;
     std::vector<float> lux;
     for (const vec3& texel : measuredBy(device(), scene, sensor, settings)) lux.push_back(texel.y);
