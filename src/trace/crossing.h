@@ -19,6 +19,11 @@ inline vec3 facingNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
   return dot(direction, side * normal) < 0 ? side * normal : side * geometricNormal;
 }
 
+// Whether it is the geometric one.
+inline bool facesAway(vec3 direction, vec3 normal, vec3 geometricNormal) {
+  return dot(direction, normal) * dot(direction, geometricNormal) <= 0;
+}
+
 // Where light goes on from a boundary. Smooth normals stand for a surface that the triangles are near to;
 // they count as far as the triangles allow: one that would send light through the surface, or back where it
 // should go through, gives way to the triangle's own, so that no light is lost.
@@ -33,7 +38,7 @@ struct Bend {
 inline vec3 reflectedBy(vec3 direction, vec3 normal, vec3 geometricNormal, bool& isFlat) {
   const vec3 geometric = dot(direction, geometricNormal) < 0 ? geometricNormal : -geometricNormal;
   const vec3 reflected = reflectDirection(direction, facingNormal(direction, normal, geometricNormal));
-  isFlat = dot(reflected, geometric) <= 0;
+  isFlat = dot(reflected, geometric) <= 0 || facesAway(direction, normal, geometricNormal);
   return isFlat ? reflectDirection(direction, geometric) : reflected;
 }
 
@@ -42,6 +47,7 @@ inline Bend bendAt(vec3 direction, vec3 normal, vec3 geometricNormal, float eta)
   const vec3 geometric = dot(direction, geometricNormal) < 0 ? geometricNormal : -geometricNormal;
   vec3 facing = facingNormal(direction, normal, geometricNormal);
   Bend bend;
+  bend.isFlatTransmitted = facesAway(direction, normal, geometricNormal);
   bend.reflected = reflectedBy(direction, normal, geometricNormal, bend.isFlatReflected);
   bool isTransmitted = refractDirection(direction, facing, eta, bend.transmitted);
   if (isTransmitted && dot(bend.transmitted, geometric) >= 0) {

@@ -117,6 +117,7 @@ EntryPoint entryPoint(const Scene& scene, const RayScene& rays, uint32_t objectI
   const vec3 doubledArea = cross(positions[1] - positions[0], positions[2] - positions[0]);
   entry.geometricNormal = object.placement.direction(doubledArea / std::max(length(doubledArea), 1e-30f));
   entry.patch = rays.patchOf(object.mesh, triangle);
+  entry.isCurved = mesh.isCurved;
   return entry;
 }
 
@@ -146,10 +147,11 @@ PathNode firstNode(const CasterLight& light, const EntryPoint& entry, uint32_t c
   node.medium = light.medium;
   node.channel = light.channel;
   node.state = PathState::atCaster;
-  // Of a triangle that the light meets though the smooth normal faces away, past the silhouette.
+  // Of a curved triangle that the light meets though the smooth normal faces away, past the silhouette; on
+  // flat ones it is the triangle's own normal that counts there.
   vec3 normal = light.facing * entry.normal;
   const float cosine = -dot(node.direction, normal);
-  if (cosine < kGrazing) normal = normalize(normal - (kGrazing - cosine) * node.direction);
+  if (entry.isCurved && cosine < kGrazing) normal = normalize(normal - (kGrazing - cosine) * node.direction);
   node.normal = light.facing * normal;
   const bool isMetRight = light.facing * dot(entry.geometricNormal, node.direction) < 0;
   node.geometricNormal = isMetRight ? entry.geometricNormal : node.normal;

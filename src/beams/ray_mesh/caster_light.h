@@ -33,6 +33,7 @@ struct EntryPoint {
   vec3 normal{0};        // unit, smooth
   vec3 geometricNormal{0};
   uint32_t patch = 0;
+  bool isCurved = false;  // between the vertices of its mesh
 };
 // m, on the curved surface.
 vec3 entryPosition(const Scene& scene, uint32_t object, uint32_t triangle, vec2 weights);

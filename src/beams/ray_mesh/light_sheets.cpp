@@ -303,9 +303,11 @@ bool LightSheets::isFacetedAt(const PathNode& node) const {
 
 void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed, Progress& progress) {
   std::vector<Sheet>&mixed = memory_.mixed, &next = memory_.next;
+  std::vector<Sheet> tooLong;
   while (!sheets.empty()) {
     progress.advance();
     mixed.clear();
+    tooLong.clear();
     next.clear();
     memory_.fresh.clear();
     for (const Sheet& sheet : sheets) {
@@ -315,7 +317,7 @@ void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed,
       }
       const PathNode& node = tree.nodes[sheet.node[0]];
       if (node.state == PathState::atCaster && node.generation >= kMostOfSheet && sheet.cuts != kWhole) {
-        giveToOne(sheet, next);
+        tooLong.push_back(sheet);
       } else if (node.state == PathState::atCaster) {
         expand(sheet, next);
       } else if (isElsewhere(sheet)) {
@@ -332,6 +334,7 @@ void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed,
     }
     traceChildren(next);
     part(mixed, next);
+    giveToOnes(tooLong, next);
     sheets.swap(next);
   }
   mixed.clear();

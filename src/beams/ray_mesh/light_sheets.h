@@ -35,6 +35,14 @@ struct Sheet {
 // Cuts of a sheet of one path alone, which is not cut.
 inline constexpr uint8_t kWhole = 255;
 
+// 0 to 1, at random, the same for the same numbers.
+inline float chance(uint32_t a, uint32_t b) {
+  uint64_t x = (uint64_t(a) << 32 | b) + 0x9e3779b97f4a7c15u;
+  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+  return float((x ^ x >> 31) >> 40) * 0x1p-24f;
+}
+
 // A corner that is not yet traced.
 struct NewCorner {
   uint32_t light = 0;
@@ -117,8 +125,8 @@ class LightSheets {
   void prune(std::vector<Sheet>& sheets);
   void chooseAmongWeak(std::vector<Sheet>& children);
   void part(std::span<const Sheet> mixed, std::vector<Sheet>& next);
-  void clip(std::span<const Sheet> mixed, std::vector<Sheet>& next);
-  void giveToOne(const Sheet& sheet, std::vector<Sheet>& next);
+  void clip(std::span<const Sheet> mixed, std::vector<Sheet>& ones, std::vector<Sheet>& next);
+  void giveToOnes(std::span<const Sheet> sheets, std::vector<Sheet>& next);
   bool isElsewhere(const Sheet& sheet) const;
   bool isFacetedAt(const PathNode& node) const;
   float lightestParted(const Sheet& sheet) const;

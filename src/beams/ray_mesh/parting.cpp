@@ -69,7 +69,7 @@ float LightSheets::lightestParted(const Sheet& sheet) const {
 
 void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
   if (mixed.empty()) return;
-  std::vector<Sheet> heavy, clipped;
+  std::vector<Sheet> heavy, clipped, ones;
   const float leastCut = kHeavy * settings_.error * float(stats.incidentFlux);
   for (const Sheet& sheet : mixed) {
     uint32_t signature[3];
@@ -84,11 +84,12 @@ void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
     } else if (most > light && areTwo && sheet.cuts < kMostCuts + 2) {
       clipped.push_back(sheet);
     } else {
-      giveToOne(sheet, next);
+      ones.push_back(sheet);
     }
   }
   cut(heavy, next);
-  clip(clipped, next);
+  clip(clipped, ones, next);
+  giveToOnes(ones, next);
 }
 
 // lm, of the brightest of its paths.
@@ -102,31 +103,30 @@ float LightSheets::mostCarried(const Sheet& sheet) const {
   return most;
 }
 
-// The path of one corner, at random, takes all of the light.
-void LightSheets::giveToOne(const Sheet& sheet, std::vector<Sheet>& next) {
-  const uint32_t lot =
-      (tree.nodes[sheet.node[0]].corner * 0x9e3779b9u ^ tree.nodes[sheet.node[1]].corner * 0x85ebca6bu ^
-       tree.nodes[sheet.node[2]].corner * 0xc2b2ae35u ^ sheet.generation * 0x27d4eb2fu);
-  const int corner = int(((lot ^ lot >> 15) * 0x2c1b3c6du >> 8) % 3);
-  const PathState state = tree.nodes[sheet.node[corner]].state;
-  if (state == PathState::dark || state == PathState::lost) return;
-  Sheet one = sheet;
-  one.cuts = kWhole;
-  const auto begin = [&](int i) {
-    return tree.nodes[firstOfCorner_[tree.nodes[sheet.node[i]].corner]].position;
-  };
-  // Light from a curved surface is the wider the more boundaries it has met; facets leave it as it is.
-  const int spreading =
-      isFacetedAt(tree.nodes[sheet.node[0]]) ? 0 : std::clamp(int(sheet.generation) - 1, 0, 30);
-  one.bend = 0.5f * distance(begin((corner + 1) % 3), begin((corner + 2) % 3)) * float(1 << spreading);
-  for (int j = 0; j < 3; ++j) {
-    one.node[j] = sheet.node[corner];
-    one.weights[j] = sheet.weights[corner];
+// The path of one corner, at random, takes all of the light of each.
+void LightSheets::giveToOnes(std::span<const Sheet> sheets, std::vector<Sheet>& next) {
+  for (const Sheet& sheet : sheets) {
+    const auto cornerOf = [&](int i) { return tree.nodes[sheet.node[i]].corner; };
+    const int corner =
+        int(3 * chance(cornerOf(0) ^ cornerOf(2) * 0x9e3779b9u, cornerOf(1) + sheet.generation));
+    const PathState state = tree.nodes[sheet.node[corner]].state;
+    if (state == PathState::dark || state == PathState::lost) continue;
+    Sheet one = sheet;
+    one.cuts = kWhole;
+    const auto begin = [&](int i) { return tree.nodes[firstOfCorner_[cornerOf(i % 3)]].position; };
+    // Light from a curved surface is the wider the more boundaries it has met; facets leave it as it is.
+    const bool spreads = !isFacetedAt(tree.nodes[sheet.node[corner]]);
+    one.bend = 0.5f * distance(begin(corner + 1), begin(corner + 2)) *
+               float(1 << (spreads ? std::clamp(int(sheet.generation) - 1, 0, 30) : 0));
+    for (int j = 0; j < 3; ++j) {
+      one.node[j] = sheet.node[corner];
+      one.weights[j] = sheet.weights[corner];
+    }
+    next.push_back(one);
   }
-  next.push_back(one);
 }
 
-void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
+void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& ones, std::vector<Sheet>& next) {
   if (mixed.empty()) return;
   std::vector<SideCut> sides;
   std::unordered_map<SideKey, uint32_t, SideHash> known;
@@ -209,7 +209,7 @@ void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
       if (whole.cuts < kMostCuts && luminanceOf(carried(whole)) > 10 * lightestParted(whole)) {
         chaotic.push_back(whole);
       } else {
-        giveToOne(whole, next);
+        ones.push_back(whole);
       }
       continue;
     }

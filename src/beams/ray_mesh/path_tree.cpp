@@ -35,6 +35,7 @@ uint32_t signatureOf(uint32_t before, const PathNode& node, bool tellsSurface = 
 
 // What bends by the triangle's own normal parts from its neighbors on other triangles.
 uint32_t beforeFlat(const PathNode& from, const PathNode& node) {
+  if (node.isTotal) return (from.signature ^ 0x51ed270bu) * 16777619u;
   if (!node.isFlat) return from.signature;
   uint32_t signature = from.signature;
   for (int i = 0; i < 3; ++i)
@@ -126,14 +127,15 @@ void PathTree::bendOne(PathNode& node) const {
   if (before == beyond) return;
   const float eta = iorOf(materials_, before, node.channel) / iorOf(materials_, beyond, node.channel);
   const Bend bend = bendAt(from.direction, from.normal, from.geometricNormal, eta);
+  // The same for either way, so that both are parted at the same places and no light is lost between them.
+  node.isFlat = bend.isFlatReflected || bend.isFlatTransmitted;
   if (node.way == kReflected) {
     node.direction = bend.reflected;
-    node.isFlat = bend.isFlatReflected;
+    node.isTotal = bend.reflectance >= 1;
     node.transmittance *= bend.reflectance;
     return;
   }
   node.direction = bend.transmitted;
-  node.isFlat = bend.isFlatTransmitted;
   node.transmittance *= 1 - bend.reflectance;
   if (bend.reflectance >= 1) {
     node.state = PathState::lost;

@@ -54,7 +54,8 @@ struct PathNode {
   uint32_t signature = 0;  // equal for paths that met the same smooth surfaces one after the other
   PathState state = PathState::ahead;
   bool isQueued = false;  // to be traced
-  bool isFlat = false;    // it was bent by the triangle's own normal
+  bool isTotal = false;   // all of it was reflected there
+  bool isFlat = false;  // it was bent by the triangle's own normal
 };
 
 // Where light is wanted: on opaque surfaces, or on a plane that blocks nothing.

@@ -13,14 +13,6 @@ constexpr double kLeftOut = 0.07;  // of the error
 // Of the incident flux, times the error: less than this is not followed sheet by sheet.
 constexpr float kLeastCarried = 2e-4f;
 
-// 0 to 1, at random, the same for the same numbers.
-float chance(uint32_t a, uint32_t b) {
-  uint64_t x = (uint64_t(a) << 32 | b) + 0x9e3779b97f4a7c15u;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-  return float((x ^ x >> 31) >> 40) * 0x1p-24f;
-}
-
 }  // namespace
 
 // Leaves branches out that carry little of the light that fed them, the weakest first, as far as the error
@@ -46,6 +38,12 @@ void LightSheets::prune(std::vector<Sheet>& sheets) {
     const bool isDropped = part[i] < kWeakBranch && (part[i] <= 0 || bucketOf(part[i]) >= last);
     if (isDropped) {
       stats.droppedFlux += double(luminanceOf(carried(sheets[i])));
+      // Where all is reflected, that is the first of the ways.
+      const bool hasSibling =
+          i + 1 < sheets.size() && part[i] <= 0 &&
+          tree.nodes[sheets[i].node[0]].parent == tree.nodes[sheets[i + 1].node[0]].parent;
+      if (hasSibling && sheets[i].generation <= kMostOfSheet)
+        sheets[i + 1].aside &= ~(uint64_t{1} << (sheets[i].generation - 1));
     } else {
       sheets[kept++] = sheets[i];
     }
