@@ -124,14 +124,25 @@ void addContender(Contenders& all, const char* technique, const std::string& nam
   }
 }
 
+// A frame of each, in turns. What runs out of memory on the way is left out, and said to be.
+void timeAll(Contenders& all, const std::string& name, const Scene& scene, std::string& left) {
+  std::erase_if(all, [&](const auto& contender) {
+    try {
+      contender->frames.time(scene);
+      return false;
+    } catch (const RuntimeFailure& failure) {
+      left += "; left out: " + name + ", " + contender->settings.technique + " (" + failure.what() + ")";
+      return true;
+    }
+  });
+}
+
 // Those that one frame shows to be far from the fastest are not timed further: some take seconds.
-void dropSlow(Contenders& older, const Scene& scene) {
+void dropSlow(Contenders& older, const std::string& name, const Scene& scene, std::string& left) {
   constexpr double kFar = 2;
+  timeAll(older, name, scene, left);
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& contender : older) {
-    contender->frames.time(scene);
-    least = std::min(least, contender->litMilliseconds());
-  }
+  for (const auto& contender : older) least = std::min(least, contender->litMilliseconds());
   std::erase_if(older, [&](const auto& contender) { return contender->litMilliseconds() > kFar * least; });
 }
 
@@ -140,13 +151,12 @@ void addScene(PaperTable& table, const std::string& name, const Scene& scene, co
   Contenders own, older;
   addContender(own, "adaptive-beams", name, scene, bench, left, progress);
   for (const char* technique : kOlder) addContender(older, technique, name, scene, bench, left, progress);
-  dropSlow(older, scene);
+  dropSlow(older, name, scene, left);
   progress.begin("frames of " + name, kTimedFrames);
   for (int frame = 1; frame <= kTimedFrames; ++frame) {
     const Scene moved = withTurnedLights(scene, frame);
     // In turns, so that all meet the same machine.
-    for (const Contenders* some : {&own, &older})
-      for (const auto& contender : *some) contender->frames.time(moved);
+    for (Contenders* some : {&own, &older}) timeAll(*some, name, moved, left);
     progress.advance();
   }
   progress.finish();

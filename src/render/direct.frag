@@ -66,7 +66,8 @@ float softVisibility(vec3 offset, vec3 normal, vec2 middle, uint firstMap) {
   float own = 0, there = 0, depths = 0, found = 0;
   depthSeen(offset, middle, firstMap, own);
   // As wide as the nearest that is in the map may make it.
-  const float nearest = -constants.depthOffset / (isPerspective ? constants.depthScale : length(constants.mapDepth));
+  const float nearest =
+      -constants.depthOffset / (isPerspective ? constants.depthScale : length(constants.mapDepth));
   const float widest = isPerspective ? own / nearest - 1 : own - nearest;
   for (int i = 0; i < kLooks; ++i) {
     const vec3 at = onPlane(offset, normal, widest * placeOnLight(i, kLooks, u, v));

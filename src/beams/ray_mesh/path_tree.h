@@ -55,7 +55,7 @@ struct PathNode {
   PathState state = PathState::ahead;
   bool isQueued = false;  // to be traced
   bool isTotal = false;   // all of it was reflected there
-  bool isFlat = false;  // it was bent by the triangle's own normal
+  bool isFlat = false;    // it was bent by the triangle's own normal
 };
 
 // Where light is wanted: on opaque surfaces, or on a plane that blocks nothing.
