@@ -130,7 +130,7 @@ Contacts contactsOf(const Scene& scene, std::vector<Meeting>& meetings) {
   contacts.sets.emplace_back();
   contacts.setOf.resize(scene.objects.size());
   std::ranges::sort(meetings);
-  meetings.erase(std::ranges::unique(meetings).begin(), meetings.end());
+  meetings.erase(std::unique(meetings.begin(), meetings.end()), meetings.end());
   std::map<std::vector<uint32_t>, uint32_t> known;
   for (std::size_t first = 0, last = 0; first < meetings.size(); first = last) {
     const auto [object, triangle, ignored] = meetings[first];
