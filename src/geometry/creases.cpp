@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "geometry/mesh_checks.h"
 #include "geometry/mesh_edges.h"
@@ -96,13 +97,14 @@ uint32_t splitAtCreases(Mesh& mesh) {
 
   struct Use {
     uint32_t vertex, group, corner;
-    auto operator<=>(const Use&) const = default;
   };
   std::vector<Use> uses;
   uses.reserve(sums.size());
   for (uint32_t corner = 0; corner < sums.size(); ++corner)
     uses.push_back({mesh.triangles[corner / 3][int(corner % 3)], corners.groupOf(corner), corner});
-  std::sort(uses.begin(), uses.end());
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+    return std::tie(a.vertex, a.group, a.corner) < std::tie(b.vertex, b.group, b.corner);
+  });
   const auto given = uint32_t(mesh.positions.size());
   for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
     const uint32_t vertex = uses[first].vertex;

@@ -20,10 +20,7 @@ struct Face {
   uint32_t triangle;
 };
 
-struct Meeting {
-  uint32_t object, triangle, other;
-  auto operator<=>(const Meeting&) const = default;
-};
+using Meeting = std::array<uint32_t, 3>;  // an object, a triangle of it, and another object
 
 bool overlap(const Box& a, const Box& b, float spare) {
   return glm::all(glm::lessThanEqual(a.low - spare, b.high)) &&
@@ -135,8 +132,8 @@ Contacts contactsOf(const Scene& scene, std::vector<Meeting>& meetings) {
   for (std::size_t first = 0, last = 0; first < meetings.size(); first = last) {
     const auto [object, triangle, ignored] = meetings[first];
     std::vector<uint32_t> others;
-    while (last < meetings.size() && meetings[last].object == object && meetings[last].triangle == triangle)
-      others.push_back(meetings[last++].other);
+    while (last < meetings.size() && meetings[last][0] == object && meetings[last][1] == triangle)
+      others.push_back(meetings[last++][2]);
     const auto [set, isNew] = known.try_emplace(others, uint32_t(contacts.sets.size()));
     if (isNew) contacts.sets.push_back(others);
     std::vector<uint32_t>& ofTriangles = contacts.setOf[object];
