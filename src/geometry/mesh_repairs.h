@@ -10,9 +10,8 @@
 
 namespace nephroid {
 
-// Vertices at open edges that are nearer to each other than the rounding of the mesh's coordinates become
-// one place; never where its own
-// edges are as short as that. `joined` follows. False where nothing moved.
+// Vertices at open edges that are nearer to each other than the rounding of the mesh's coordinates become one
+// place; never where its own edges are as short as that. `joined` follows. False where nothing moved.
 bool closeSeams(Mesh& mesh, const MeshEdges& edges, std::vector<uint32_t>& joined);
 
 // Leaves out triangles that stand twice, and counts them. Of two that face the same way, the later one. Where

@@ -115,7 +115,8 @@ struct RayScene::Impl {
   std::vector<float> roundings;        // m, of the objects
   std::vector<Box> boxes;              // of the meshes
   std::vector<uint8_t> ranks;          // of the objects: which of those that lie in the same place counts
-  std::vector<Placement> placements;   // that `contacts` were found for
+  // What `contacts` were found for; none where they have to be found anew.
+  std::vector<std::pair<Placement, uint8_t>> contactsFor;
   Contacts contacts;
 
   Impl() {
@@ -157,16 +158,20 @@ struct RayScene::Impl {
       if (objects[i].mesh == index) rtcSetGeometryInstancedScene(instances[i], now.scene.get());
     meshes[index] = std::move(now);
     boxes[index] = boundingBox(*meshes[index].mesh);
+    contactsFor.clear();
   }
 
   void updateContacts(const Scene& scene) {
     ranks.clear();
-    for (const Object& object : scene.objects) ranks.push_back(rankOf(scene.materialOf(object)));
-    std::vector<Placement> now;
-    for (const Object& object : scene.objects) now.push_back(object.placement);
-    if (now == placements) return;
+    std::vector<std::pair<Placement, uint8_t>> now;
+    for (const Object& object : scene.objects) {
+      const Material& material = scene.materialOf(object);
+      ranks.push_back(rankOf(material));
+      now.emplace_back(object.placement, uint8_t(2 * ranks.back() + uint8_t(material.thinWalled)));
+    }
+    if (now == contactsFor) return;
     contacts = findContacts(scene, boxes, roundings);
-    placements = std::move(now);
+    contactsFor = std::move(now);
   }
 
   RTCScene root() const { return top ? top.get() : meshes[0].scene.get(); }

@@ -126,7 +126,11 @@ BeamShift Refinement::shiftOf(const Sheet& sheet) const {
     const PathNode& node = sheets_.tree.nodes[sheet.node[c]];
     const float way = distance(sheets_.tree.nodes[node.parent].position, node.position);
     const PathSpread& spread = sheets_.tree.spreads[sheet.node[c]];
+    shift.start[c] = sheets_.tree.nodes[node.parent].position;
+    shift.direction[c] = node.direction;
     for (int i = 0; i < 2; ++i) {
+      shift.startShift[c][i] = lamp.deviation[i] * sheets_.tree.spreads[node.parent].position[i];
+      shift.directionShift[c][i] = lamp.deviation[i] * spread.direction[i];
       const vec3 moved = lamp.deviation[i] * spread.position[i];
       // It is no straight line where it is long.
       shift.corner[c][i] = moved * std::min(1.0f, 0.5f * way / std::max(length(moved), 1e-30f));

@@ -61,6 +61,19 @@ void smear(const Plane& plane, const mat2& variance, vec3 (&corner)[3]) {
   }
 }
 
+// Where a corner lands for a place on the lamp: where its way meets the receiver's plane, since it moves far
+// out there where it meets the plane at a slant; in proportion where it would hardly meet it.
+vec3 movedCorner(vec3 corner, const BeamShift& shift, int c, vec2 at, vec3 normal) {
+  constexpr float kLeastApproach = 0.3f;  // of what it was
+  const vec3 start = shift.start[c] + at.x * shift.startShift[c][0] + at.y * shift.startShift[c][1];
+  const vec3 direction =
+      normalize(shift.direction[c] + at.x * shift.directionShift[c][0] + at.y * shift.directionShift[c][1]);
+  const float before = dot(shift.direction[c], normal), approach = dot(direction, normal);
+  if (approach / before < kLeastApproach)
+    return corner + at.x * shift.corner[c][0] + at.y * shift.corner[c][1];
+  return start + dot(corner - start, normal) / approach * direction;
+}
+
 }  // namespace
 
 BeamCopies copiesFor(float blur, float detail, float longest, bool isOneOfMore) {
@@ -86,7 +99,7 @@ void widen(const LandedBeam& beam, const BeamShift& shift, const LampSpread& lam
                        : count == kLampPlaces ? lamp.places[k]
                                               : lamp.fewPlaces[k];
     const vec2 at = std::sqrt(1 - (1 - kNotTaken) * rest) * place;
-    for (int c = 0; c < 3; ++c) part.corner[c] += at.x * shift.corner[c][0] + at.y * shift.corner[c][1];
+    for (int c = 0; c < 3; ++c) part.corner[c] = movedCorner(beam.corner[c], shift, c, at, normal);
     smear(plane, variance, part.corner);
   }
 }

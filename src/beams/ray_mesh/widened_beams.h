@@ -14,6 +14,8 @@ namespace nephroid {
 // its axes.
 struct BeamShift {
   vec3 corner[3][2];
+  // And of the ways that lead there: where they begin (m), and their directions (unit).
+  vec3 start[3], startShift[3][2], direction[3], directionShift[3][2];
 };
 
 // Into how many beams one is parted, and whether those next to it use other points of the lamp: large ones
