@@ -86,6 +86,18 @@ TEST(SoftCaustics, OfTheSunAreTheMeanOfItsDisk) {
   }
 }
 
+// From the middle of a ball of glass all light comes out along the radii, in the end. What moves with the
+// square of the lamp's radius over the ball's is left out.
+TEST(SoftCaustics, OfALampInTheMiddleOfGlassLandWhereItsLightGoes) {
+  Light lamp = pointLight({0, 0.7f, 0}, 6);
+  lamp.radius = 0.05f;
+  double lux = 0;
+  for (const vec3& texel : luxOf(ballScene(lamp))) lux += double(texel.x) / (kTexels * kTexels);
+  const double half = 0.8, height = 0.7;
+  const double steradians = 4 * std::asin(half * half / (half * half + height * height));
+  EXPECT_NEAR(lux * 4 * half * half / (6 * steradians), 1, std::pow(0.05 / 0.4, 2));
+}
+
 TEST(SoftCaustics, OfABallAreTheMeanOfItsPoints) {
   Light lamp = pointLight({0.5f, 2.5f, 0.3f}, 30);
   lamp.radius = 0.12f;
