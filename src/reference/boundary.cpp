@@ -75,8 +75,7 @@ void Boundaries::crossThinWall(const Hit& hit, const Band& band, Choice choice, 
 }
 
 void Boundaries::reflect(const Hit& hit, Path& path) const {
-  bool isFlat = false;
-  path.direction = reflectedBy(path.direction, hit.normal, hit.geometricNormal, isFlat);
+  path.direction = reflectedBy(path.direction, hit.normal, hit.geometricNormal).direction;
 }
 
 vec3 Boundaries::transmittance(uint32_t object, vec3 from, vec3 direction, float length) const {

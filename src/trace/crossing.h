@@ -12,11 +12,16 @@ namespace nephroid {
 // Boundaries a ray may cross before it is given up as trapped.
 inline constexpr uint32_t kMaximumCrossings = 48;
 
+inline vec3 facingGeometric(vec3 direction, vec3 geometricNormal) {
+  return dot(direction, geometricNormal) < 0 ? geometricNormal : -geometricNormal;
+}
+
 // The smooth normal on the side the light comes from; the geometric one where the smooth one faces away from
 // the light.
 inline vec3 facingNormal(vec3 direction, vec3 normal, vec3 geometricNormal) {
-  const float side = dot(direction, geometricNormal) < 0 ? 1.0f : -1.0f;
-  return dot(direction, side * normal) < 0 ? side * normal : side * geometricNormal;
+  const vec3 geometric = facingGeometric(direction, geometricNormal);
+  const vec3 smooth = dot(direction, geometricNormal) < 0 ? normal : -normal;
+  return dot(direction, smooth) < 0 ? smooth : geometric;
 }
 
 // Whether it is the geometric one.
@@ -24,34 +29,40 @@ inline bool facesAway(vec3 direction, vec3 normal, vec3 geometricNormal) {
   return dot(direction, normal) * dot(direction, geometricNormal) <= 0;
 }
 
-// Where light goes on from a boundary. Smooth normals stand for a surface that the triangles are near to;
-// they count as far as the triangles allow: one that would send light through the surface, or back where it
-// should go through, gives way to the triangle's own, so that no light is lost.
-struct Bend {
-  vec3 reflected{0};                                        // unit
-  vec3 transmitted{0};                                      // unit
-  float reflectance = 1;                                    // 0..1; 1: nothing is transmitted
-  bool isFlatReflected = false, isFlatTransmitted = false;  // it goes by the triangle's own normal
+struct Reflection {
+  vec3 direction{0};    // unit
+  bool isFlat = false;  // it goes by the triangle's own normal
 };
 
-// `direction`: unit, of the light that arrives.
-inline vec3 reflectedBy(vec3 direction, vec3 normal, vec3 geometricNormal, bool& isFlat) {
-  const vec3 geometric = dot(direction, geometricNormal) < 0 ? geometricNormal : -geometricNormal;
+// Where light goes on from a boundary. `direction`: unit, of the light that arrives. Smooth normals stand for
+// a surface that the triangles are near to; they count as far as the triangles allow: one that would send
+// light through the surface, or back where it should go through, gives way to the triangle's own, so that no
+// light is lost.
+inline Reflection reflectedBy(vec3 direction, vec3 normal, vec3 geometricNormal) {
+  const vec3 geometric = facingGeometric(direction, geometricNormal);
   const vec3 reflected = reflectDirection(direction, facingNormal(direction, normal, geometricNormal));
-  isFlat = dot(reflected, geometric) <= 0 || facesAway(direction, normal, geometricNormal);
-  return isFlat ? reflectDirection(direction, geometric) : reflected;
+  if (dot(reflected, geometric) <= 0) return {reflectDirection(direction, geometric), true};
+  return {reflected, facesAway(direction, normal, geometricNormal)};
 }
+
+struct Bend {
+  vec3 reflected{0};      // unit
+  vec3 transmitted{0};    // unit
+  float reflectance = 1;  // 0..1; 1: nothing is transmitted
+  bool isFlat = false;    // one of them goes by the triangle's own normal
+};
 
 // `eta`: the index of refraction on the side that light comes from, over that on the other.
 inline Bend bendAt(vec3 direction, vec3 normal, vec3 geometricNormal, float eta) {
-  const vec3 geometric = dot(direction, geometricNormal) < 0 ? geometricNormal : -geometricNormal;
-  vec3 facing = facingNormal(direction, normal, geometricNormal);
+  const vec3 geometric = facingGeometric(direction, geometricNormal);
+  const Reflection reflection = reflectedBy(direction, normal, geometricNormal);
   Bend bend;
-  bend.isFlatTransmitted = facesAway(direction, normal, geometricNormal);
-  bend.reflected = reflectedBy(direction, normal, geometricNormal, bend.isFlatReflected);
+  bend.reflected = reflection.direction;
+  bend.isFlat = reflection.isFlat;
+  vec3 facing = facingNormal(direction, normal, geometricNormal);
   bool isTransmitted = refractDirection(direction, facing, eta, bend.transmitted);
   if (isTransmitted && dot(bend.transmitted, geometric) >= 0) {
-    bend.isFlatTransmitted = true;
+    bend.isFlat = true;
     facing = geometric;
     isTransmitted = refractDirection(direction, facing, eta, bend.transmitted);
   }

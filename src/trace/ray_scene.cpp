@@ -14,6 +14,7 @@
 #include "scene/checks.h"
 #include "trace/embree_calls.h"
 #include "trace/smooth_patches.h"
+#include "trace/traced_triangle.h"
 
 namespace nephroid {
 namespace {
@@ -25,11 +26,6 @@ constexpr float kGrazingCosine = 0.01f;
 
 uint8_t rankOf(const Material& material) {
   return material.type == MaterialType::diffuse ? 2 : material.type == MaterialType::mirror ? 1 : 0;
-}
-
-float largestCoordinate(vec3 point) {
-  const vec3 size = glm::abs(point);
-  return std::max({size.x, size.y, size.z});
 }
 
 struct alignas(64) RayCounter {
@@ -44,35 +40,6 @@ oneapi::tbb::enumerable_thread_specific<RayCounter>& rayCounters() {
 void countRays(uint64_t rays) {
   thread_local RayCounter& counter = rayCounters().local();
   counter.count.store(counter.count.load(std::memory_order_relaxed) + rays, std::memory_order_relaxed);
-}
-
-// All that a hit is described by, in one place of memory: a ray through a large mesh finds none of it in a
-// cache.
-struct TracedTriangle {
-  mat3 positions;  // m
-  mat3 normals;    // unit
-  vec3 flatNormal;
-  uint32_t patch;
-};
-
-std::vector<TracedTriangle> tracedTriangles(const Mesh& mesh, const std::vector<uint32_t>& patches) {
-  std::vector<TracedTriangle> triangles(mesh.triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const uvec3& c = mesh.triangles[i];
-    const mat3 corners(mesh.positions[c.x], mesh.positions[c.y], mesh.positions[c.z]);
-    triangles[i] = {corners, mat3(mesh.normals[c.x], mesh.normals[c.y], mesh.normals[c.z]),
-                    glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0])), patches[i]};
-  }
-  return triangles;
-}
-
-float volumeOf(const Mesh& mesh) {
-  if (!mesh.isClosed) return std::numeric_limits<float>::infinity();
-  double sum = 0;
-  for (const uvec3& corners : mesh.triangles)
-    sum += dot(glm::dvec3(mesh.positions[corners.x]),
-               cross(glm::dvec3(mesh.positions[corners.y]), glm::dvec3(mesh.positions[corners.z])));
-  return static_cast<float>(std::abs(sum) / 6);
 }
 
 struct DeviceRelease {

@@ -104,8 +104,7 @@ OutgoingRay Follower::follow(const SurfacePoint& entry, uint32_t object, vec3 di
     const Material& material = *materials_[hit.object];
     ray.position = hit.position;
     if (material.type == MaterialType::mirror) {
-      bool isFlat = false;
-      ray.direction = reflectedBy(ray.direction, hit.normal, hit.geometricNormal, isFlat);
+      ray.direction = reflectedBy(ray.direction, hit.normal, hit.geometricNormal).direction;
       ray.transmittance *= material.color;
       ray.signature = extendSignature(ray.signature, hit.object, hit.patch, Event::reflected);
     } else if (material.thinWalled) {

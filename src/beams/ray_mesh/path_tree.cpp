@@ -21,6 +21,10 @@ bool entersAt(const PathNode& node) {
   return dot(node.direction, node.geometricNormal) < 0;
 }
 
+uint32_t extended(uint32_t signature, uint32_t word) {
+  return (signature ^ (word + 0x9e3779b9u)) * 16777619u;  // FNV-1a, a word at a time
+}
+
 // `tellsSurface`: whether light that lands on another surface went another way.
 uint32_t signatureOf(uint32_t before, const PathNode& node, bool tellsSurface = false) {
   uint32_t signature = before;
@@ -29,17 +33,18 @@ uint32_t signatureOf(uint32_t before, const PathNode& node, bool tellsSurface = 
   for (const uint32_t word :
        {uint32_t(node.state), tellsObject ? node.object : 0, isAtCaster || tellsSurface ? node.patch : 0,
         uint32_t(isAtCaster && entersAt(node))})
-    signature = (signature ^ (word + 0x9e3779b9u)) * 16777619u;  // FNV-1a, a word at a time
+    signature = extended(signature, word);
   return signature;
 }
 
-// What bends by the triangle's own normal parts from its neighbors on other triangles.
-uint32_t beforeFlat(const PathNode& from, const PathNode& node) {
-  if (node.isTotal) return (from.signature ^ 0x51ed270bu) * 16777619u;
-  if (!node.isFlat) return from.signature;
+// The signature that the way from a boundary begins with. What bends by the triangle's own normal parts from
+// its neighbors on other triangles; what is totally reflected, from what is reflected in part.
+uint32_t beginningOf(const PathNode& from, const PathNode& node) {
   uint32_t signature = from.signature;
-  for (int i = 0; i < 3; ++i)
-    signature = (signature ^ std::bit_cast<uint32_t>(from.geometricNormal[i])) * 16777619u;
+  if (node.isTotal) signature = extended(signature, 1);
+  if (node.isFlat)
+    for (int i = 0; i < 3; ++i)
+      signature = extended(signature, std::bit_cast<uint32_t>(from.geometricNormal[i]));
   return signature;
 }
 
@@ -114,7 +119,9 @@ void PathTree::bendOne(PathNode& node) const {
   node.direction = from.direction;
   node.transmittance = from.transmittance;
   if (material.type == MaterialType::mirror) {
-    node.direction = reflectedBy(from.direction, from.normal, from.geometricNormal, node.isFlat);
+    const Reflection reflection = reflectedBy(from.direction, from.normal, from.geometricNormal);
+    node.direction = reflection.direction;
+    node.isFlat = reflection.isFlat;
     node.transmittance *= material.color;
     return;
   }
@@ -128,7 +135,7 @@ void PathTree::bendOne(PathNode& node) const {
   const float eta = iorOf(materials_, before, node.channel) / iorOf(materials_, beyond, node.channel);
   const Bend bend = bendAt(from.direction, from.normal, from.geometricNormal, eta);
   // The same for either way, so that both are parted at the same places and no light is lost between them.
-  node.isFlat = bend.isFlatReflected || bend.isFlatTransmitted;
+  node.isFlat = bend.isFlat;
   if (node.way == kReflected) {
     node.direction = bend.reflected;
     node.isTotal = bend.reflectance >= 1;
@@ -268,7 +275,7 @@ void PathTree::trace(std::span<const uint32_t> bent) {
         if (hasSpreads) carryTo(node, hits[i], spreads[bent[first + i]]);
         const bool tellsSurface =
             node.state == PathState::arrived && !target_.isPlane && hasFewFaces_[node.object];
-        node.signature = signatureOf(beforeFlat(nodes[node.parent], node), node, tellsSurface);
+        node.signature = signatureOf(beginningOf(nodes[node.parent], node), node, tellsSurface);
       }
     }
   });

@@ -38,12 +38,6 @@ void LightSheets::prune(std::vector<Sheet>& sheets) {
     const bool isDropped = part[i] < kWeakBranch && (part[i] <= 0 || bucketOf(part[i]) >= last);
     if (isDropped) {
       stats.droppedFlux += double(luminanceOf(carried(sheets[i])));
-      // Where all is reflected, that is the first of the ways.
-      const bool hasSibling =
-          i + 1 < sheets.size() && part[i] <= 0 &&
-          tree.nodes[sheets[i].node[0]].parent == tree.nodes[sheets[i + 1].node[0]].parent;
-      if (hasSibling && sheets[i].generation <= kMostOfSheet)
-        sheets[i + 1].aside &= ~(uint64_t{1} << (sheets[i].generation - 1));
     } else {
       sheets[kept++] = sheets[i];
     }
