@@ -6,8 +6,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "formats/mesh_file.h"
+#include "geometry/bounds.h"
 #include "support/ball_over_floor.h"
 #include "support/counted_answers.h"
+#include "support/shared_data.h"
 #include "techniques/adaptive_beams/landed_light.h"
 #include "techniques/adaptive_beams/sensor_light.h"
 #include "water/water.h"
@@ -137,6 +140,24 @@ TEST(RayMeshBounds, AMillionTrianglesHaveTheLightOfAFew) {
   EXPECT_LT(many.stats.bytes, 512 * kMiB);
   const RayMesh few = tracedFor(ballOf(20'000), settingsOfPicture());
   EXPECT_NEAR(many.stats.landedFlux / few.stats.landedFlux, 1, 0.01);
+}
+
+// Of clear glass nothing is lost, however often its light is reflected inside.
+TEST(RayMeshBounds, ChaoticLightIsKept) {
+  const std::filesystem::path file = sharedData() / "data/meshes/knot2-closed-11k.obj";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  Scene scene = ballOverFloor(0.8f, {0, 3, 0});
+  scene.meshes[0] = loadMeshFile(file);
+  const Box box = boundingBox(scene.meshes[0]);
+  scene.objects[0].placement.scale = 0.8f / box.diagonal();
+  scene.objects[0].placement.translation =
+      vec3(0, 0.5f, 0) - 0.5f * scene.objects[0].placement.scale * (box.low + box.high);
+  RayMeshSettings settings;
+  settings.detail = 0.005f;
+  const RayMeshStats stats = tracedFor(scene, settings).stats;
+  const double told =
+      stats.landedFlux + stats.missedFlux + stats.shadedFlux + stats.lostFlux + stats.droppedFlux;
+  EXPECT_NEAR(told / stats.incidentFlux, 1, 0.5 * double(settings.error));
 }
 
 // A wave of 100,000 triangles under an area lamp.

@@ -303,13 +303,15 @@ bool LightSheets::isFacetedAt(const PathNode& node) const {
 
 void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed, Progress& progress) {
   std::vector<Sheet>&mixed = memory_.mixed, &next = memory_.next;
-  std::vector<Sheet> tooLong;
+  std::vector<Sheet> tooLong, early;
   while (!sheets.empty()) {
     progress.advance();
     mixed.clear();
     tooLong.clear();
+    early.clear();
     next.clear();
     memory_.fresh.clear();
+    const bool hasRoom = bytes() < settings_.mostBytes / 2;
     for (const Sheet& sheet : sheets) {
       if (!isOneWay(tree.nodes, sheet)) {
         mixed.push_back(sheet);
@@ -318,6 +320,8 @@ void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed,
       const PathNode& node = tree.nodes[sheet.node[0]];
       if (node.state == PathState::atCaster && node.generation >= kMostOfSheet && sheet.cuts != kWhole) {
         tooLong.push_back(sheet);
+      } else if (hasRoom && isCutAhead(sheet)) {
+        early.push_back(sheet);
       } else if (node.state == PathState::atCaster) {
         expand(sheet, next);
       } else if (isElsewhere(sheet)) {
@@ -333,6 +337,7 @@ void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed,
       }
     }
     traceChildren(next);
+    cut(early, next);
     part(mixed, next);
     giveToOnes(tooLong, next);
     sheets.swap(next);

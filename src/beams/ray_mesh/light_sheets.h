@@ -2,6 +2,7 @@
 // parted where their paths part.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,6 +31,7 @@ struct Sheet {
   uint32_t light = 0;
   uint8_t generation = 0;  // boundaries that it has passed
   uint8_t cuts = 0;
+  bool isSettled = false;  // it stays as it is: more paths would tell less of its light
 };
 
 // Cuts of a sheet of one path alone, which is not cut.
@@ -93,6 +95,10 @@ class LightSheets {
   // Cuts each of the sheets in four; the parts stand where the sheets stood, with their paths traced.
   void cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts);
 
+  // Whether the three paths of a sheet have gone so far apart that what lies between them is not between its
+  // corners.
+  bool isChaotic(const Sheet& sheet) const;
+
   // Divides sheets that landed where finer ones beside them have corners. The whole light stays the same.
   void conform(std::vector<Sheet>& landed) const;
 
@@ -127,6 +133,11 @@ class LightSheets {
   void part(std::span<const Sheet> mixed, std::vector<Sheet>& next);
   void clip(std::span<const Sheet> mixed, std::vector<Sheet>& ones, std::vector<Sheet>& next);
   void giveToOnes(std::span<const Sheet> sheets, std::vector<Sheet>& next);
+  void giveToEach(std::span<const Sheet> sheets, std::vector<Sheet>& next);
+  Sheet pathOfCorner(const Sheet& sheet, int corner) const;
+  float spreadAt(std::array<uint32_t, 3> nodes) const;
+  bool isCutAhead(const Sheet& sheet) const;
+  bool carriesNone(uint32_t node) const;
   bool isElsewhere(const Sheet& sheet) const;
   bool isFacetedAt(const PathNode& node) const;
   float lightestParted(const Sheet& sheet) const;

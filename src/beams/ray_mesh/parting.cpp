@@ -1,5 +1,6 @@
 // Sheets of light parted where their paths part.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 
@@ -13,6 +14,12 @@ constexpr uint8_t kMostCuts = 7;  // of a sheet, before it is parted along strai
 // Of the incident flux, times the error: sheets that carry more are cut before they are parted along straight
 // lines; and those that carry less are given to their corners.
 constexpr float kHeavy = 1e-2f, kLight = 3e-4f;
+// Where light is chaotic: after so many boundaries, and so many times as far apart as it began.
+constexpr uint8_t kFirstChaotic = 3;
+constexpr float kSpreadOfChaos = 1.6f;
+// Of the incident flux, times the error, and over the number of beams: sheets that carry more are cut before
+// they become chaotic.
+constexpr float kHeavyAhead = 1e-3f, kBeamsAhead = 8;
 // Beams that a sheet of a caster's own triangle becomes, about.
 constexpr float kBeamsOfFirst = 4;
 
@@ -67,9 +74,48 @@ float LightSheets::lightestParted(const Sheet& sheet) const {
   return std::max(kLight * settings_.error, ofBeam) * float(stats.incidentFlux) * float(1 << (2 * spread));
 }
 
+// How far apart paths are, over how far apart they began.
+float LightSheets::spreadAt(std::array<uint32_t, 3> nodes) const {
+  const auto size = [&] {
+    const auto at = [&](int i) { return tree.nodes[nodes[i]].position; };
+    return std::max({distance(at(0), at(1)), distance(at(1), at(2)), distance(at(2), at(0))});
+  };
+  const float there = size();
+  for (uint32_t& node : nodes) node = firstOfCorner_[tree.nodes[node].corner];
+  return there / std::max(size(), 1e-30f);
+}
+
+bool LightSheets::isChaotic(const Sheet& sheet) const {
+  if (sheet.generation < kFirstChaotic) return false;
+  std::array<uint32_t, 3> at{sheet.node[0], sheet.node[1], sheet.node[2]};
+  const auto nodeAt = [&](int i) -> const PathNode& { return tree.nodes[at[i]]; };
+  // The last boundary that all three met in the same way.
+  uint8_t last = std::min({nodeAt(0).generation, nodeAt(1).generation, nodeAt(2).generation});
+  do {
+    if (last == 0) return false;
+    --last;
+    for (uint32_t& node : at)
+      while (tree.nodes[node].generation > last) node = tree.nodes[node].parent;
+  } while (nodeAt(0).signature != nodeAt(1).signature || nodeAt(0).signature != nodeAt(2).signature);
+  return spreadAt(at) > kSpreadOfChaos;
+}
+
+// Whether a sheet that is one way up to this boundary, and will be chaotic beyond, carries so much that it is
+// cut here, before it is known where its parts go.
+bool LightSheets::isCutAhead(const Sheet& sheet) const {
+  const PathNode& node = tree.nodes[sheet.node[0]];
+  if (sheet.cuts >= kMostCuts || node.state != PathState::atCaster || node.generation + 1 < kFirstChaotic)
+    return false;
+  const float least = std::max(kHeavyAhead * settings_.error, kBeamsAhead / float(settings_.mostBeams));
+  return luminanceOf(carried(sheet)) > least * float(stats.incidentFlux) &&
+         spreadAt({sheet.node[0], sheet.node[1], sheet.node[2]}) > kSpreadOfChaos;
+}
+
+// Paths of corners stand for the light about them. Where paths go apart as by chance, new ones between them,
+// asked for since these differ, would make the ways that most take more frequent than they are.
 void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
   if (mixed.empty()) return;
-  std::vector<Sheet> heavy, clipped, ones;
+  std::vector<Sheet> heavy, clipped, ones, chaotic;
   const float leastCut = kHeavy * settings_.error * float(stats.incidentFlux);
   for (const Sheet& sheet : mixed) {
     uint32_t signature[3];
@@ -79,7 +125,9 @@ void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
     const bool areTwo =
         signature[0] == signature[1] || signature[1] == signature[2] || signature[2] == signature[0];
     const bool isHeavy = sheet.cuts < kMostCuts && most > (areTwo ? std::max(leastCut, light) : 10 * light);
-    if (most > light && isHeavy) {
+    if (most > light && isChaotic(sheet)) {
+      chaotic.push_back(sheet);
+    } else if (most > light && isHeavy) {
       heavy.push_back(sheet);
     } else if (most > light && areTwo && sheet.cuts < kMostCuts + 2) {
       clipped.push_back(sheet);
@@ -89,6 +137,7 @@ void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
   }
   cut(heavy, next);
   clip(clipped, ones, next);
+  giveToEach(chaotic, next);
   giveToOnes(ones, next);
 }
 
@@ -97,10 +146,31 @@ float LightSheets::mostCarried(const Sheet& sheet) const {
   float most = 0;
   for (const uint32_t index : sheet.node) {
     const PathNode& node = tree.nodes[index];
-    if (node.state != PathState::dark && node.state != PathState::lost)
-      most = std::max(most, luminanceOf(sheet.flux * node.transmittance));
+    if (!carriesNone(index)) most = std::max(most, luminanceOf(sheet.flux * node.transmittance));
   }
   return most;
+}
+
+// A corner's path alone, with all of a sheet's light.
+Sheet LightSheets::pathOfCorner(const Sheet& sheet, int corner) const {
+  const auto begin = [&](int i) {
+    return tree.nodes[firstOfCorner_[tree.nodes[sheet.node[i % 3]].corner]].position;
+  };
+  Sheet one = sheet;
+  one.cuts = kWhole;
+  // Light from a curved surface is the wider the more boundaries it has met; facets leave it as it is.
+  const bool spreads = !isFacetedAt(tree.nodes[sheet.node[corner]]);
+  one.bend = 0.5f * distance(begin(corner + 1), begin(corner + 2)) *
+             float(1 << (spreads ? std::clamp(int(sheet.generation) - 1, 0, 30) : 0));
+  for (int j = 0; j < 3; ++j) {
+    one.node[j] = sheet.node[corner];
+    one.weights[j] = sheet.weights[corner];
+  }
+  return one;
+}
+
+bool LightSheets::carriesNone(uint32_t node) const {
+  return tree.nodes[node].state == PathState::dark || tree.nodes[node].state == PathState::lost;
 }
 
 // The path of one corner, at random, takes all of the light of each.
@@ -109,21 +179,19 @@ void LightSheets::giveToOnes(std::span<const Sheet> sheets, std::vector<Sheet>& 
     const auto cornerOf = [&](int i) { return tree.nodes[sheet.node[i]].corner; };
     const int corner =
         int(3 * chance(cornerOf(0) ^ cornerOf(2) * 0x9e3779b9u, cornerOf(1) + sheet.generation));
-    const PathState state = tree.nodes[sheet.node[corner]].state;
-    if (state == PathState::dark || state == PathState::lost) continue;
-    Sheet one = sheet;
-    one.cuts = kWhole;
-    const auto begin = [&](int i) { return tree.nodes[firstOfCorner_[cornerOf(i % 3)]].position; };
-    // Light from a curved surface is the wider the more boundaries it has met; facets leave it as it is.
-    const bool spreads = !isFacetedAt(tree.nodes[sheet.node[corner]]);
-    one.bend = 0.5f * distance(begin(corner + 1), begin(corner + 2)) *
-               float(1 << (spreads ? std::clamp(int(sheet.generation) - 1, 0, 30) : 0));
-    for (int j = 0; j < 3; ++j) {
-      one.node[j] = sheet.node[corner];
-      one.weights[j] = sheet.weights[corner];
-    }
-    next.push_back(one);
+    if (!carriesNone(sheet.node[corner])) next.push_back(pathOfCorner(sheet, corner));
   }
+}
+
+// The path of each corner takes a third of the light.
+void LightSheets::giveToEach(std::span<const Sheet> sheets, std::vector<Sheet>& next) {
+  for (const Sheet& sheet : sheets)
+    for (int corner = 0; corner < 3; ++corner) {
+      if (carriesNone(sheet.node[corner])) continue;
+      Sheet& one = next.emplace_back(pathOfCorner(sheet, corner));
+      one.flux /= 3.0f;
+      one.gain /= 3.0f;
+    }
 }
 
 void LightSheets::clip(std::span<const Sheet> mixed, std::vector<Sheet>& ones, std::vector<Sheet>& next) {

@@ -221,7 +221,7 @@ float Refinement::steepness(const Sheet& sheet, const Landing& landing) const {
 }
 
 double Refinement::errorSquares(const Sheet& sheet, const Landing& landing) const {
-  if (sheet.cuts == kWhole || !landing.isWanted) return 0;
+  if (sheet.cuts == kWhole || sheet.isSettled || !landing.isWanted) return 0;
   const float detail = landing.detail;
   const float steep = steepness(sheet, landing);
   // m that a side's middle lands off the middle of its ends, or would if what makes the density change were
@@ -295,8 +295,28 @@ bool Refinement::cutWorst(std::vector<Sheet>& landed, double squares, Progress& 
   landings_.resize(kept);
   if (worst.empty()) return false;
   sheets_.cut(worst, parts);
+  settleChaotic(landed);
   sheets_.follow(parts, landed, progress);
   return true;
+}
+
+// Chaotic sheets whose parts go other ways stay as they were, and land again.
+void Refinement::settleChaotic(std::vector<Sheet>& landed) {
+  std::vector<Sheet>&worst = memory_.worst, &parts = memory_.sheets;
+  const auto signatureOf = [&](uint32_t node) { return sheets_.tree.nodes[node].signature; };
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < worst.size(); ++i) {
+    const std::span<const Sheet> own = std::span(parts).subspan(4 * i, 4);
+    const bool isOneWay = std::ranges::all_of(
+        own[3].node, [&](uint32_t middle) { return signatureOf(middle) == signatureOf(worst[i].node[0]); });
+    if (isOneWay || !sheets_.isChaotic(worst[i])) {
+      for (const Sheet& part : own) parts[kept++] = part;
+    } else {
+      worst[i].isSettled = true;
+      landed.push_back(worst[i]);
+    }
+  }
+  parts.resize(kept);
 }
 
 // Radius (m) about the end of a single path, over which its light is spread.
@@ -313,7 +333,8 @@ double Refinement::chanceSquares(const std::vector<Sheet>& landed) const {
   for (std::size_t i = 0; i < landed.size(); ++i) {
     const Landing& landing = landings_[i];
     const bool isPath = landed[i].cuts == kWhole;
-    if (!landing.isWanted || (!isPath && landed[i].gain < kChosen)) continue;
+    const bool isByChance = isPath || landed[i].isSettled || landed[i].gain >= kChosen;
+    if (!landing.isWanted || !isByChance) continue;
     const double radius = isPath ? double(pathRadius(landed[i], landing)) : 0;
     const double area = isPath ? kTangentArea * radius * radius : double(landing.area);
     const double luminance = double(landing.luminance);

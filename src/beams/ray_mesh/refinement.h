@@ -59,6 +59,7 @@ class Refinement {
   float steepness(const Sheet& sheet, const Landing& landing) const;
   double chanceSquares(const std::vector<Sheet>& landed) const;
   float pathRadius(const Sheet& sheet, const Landing& landing) const;
+  void settleChaotic(std::vector<Sheet>& landed);
   bool cutWorst(std::vector<Sheet>& landed, double squares, Progress& progress);
   bool isFull(const std::vector<Sheet>& landed);
 
