@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "beams/incident_flux.h"
+#include "beams/ray_mesh/lamp_on_surface.h"
 #include "geometry/bounds.h"
 #include "geometry/curved_triangle.h"
 #include "lights/emitters.h"
@@ -70,18 +71,20 @@ std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& ra
       all.push_back(light);
     }
   };
-  const auto around = [&](const Emitter& emitter) {
-    return emitter.type == kEmitterDirectional ? MediumStack{}
-                                               : mediaAround(rays, materials, emitter.position);
+  const auto addFrom = [&](uint32_t object, LampCell cell) {
+    MediumStack around;
+    if (cell.emitter.type != kEmitterDirectional) {
+      cell.emitter.position = besideSurfaces(scene, rays, cell.emitter.position);
+      around = mediaAround(rays, materials, cell.emitter.position);
+    }
+    add(object, cell, around);
   };
   for (uint32_t index = 0; index < scene.lights.size(); ++index) {
     const Light& lamp = scene.lights[index];
     if (!hasSize(lamp)) {
-      for (const Emitter& emitter : emittersOf(lamp, index)) {
-        const MediumStack stack = around(emitter);
+      for (const Emitter& emitter : emittersOf(lamp, index))
         for (uint32_t object = 0; object < scene.objects.size(); ++object)
-          if (scene.isCaster(scene.objects[object])) add(object, {emitter, {}}, stack);
-      }
+          if (scene.isCaster(scene.objects[object])) addFrom(object, {emitter, {}});
       continue;
     }
     for (uint32_t object = 0; object < scene.objects.size(); ++object) {
@@ -90,7 +93,7 @@ std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& ra
       const Sphere sphere = boundingSphere(scene.meshOf(scene.objects[object]));
       for (const LampCell& cell :
            lampCells(lamp, index, placement.point(sphere.center), placement.scale * sphere.radius, error))
-        add(object, cell, around(cell.emitter));
+        addFrom(object, cell);
     }
   }
   return all;

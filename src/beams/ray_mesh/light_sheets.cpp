@@ -14,10 +14,16 @@ namespace {
 
 constexpr std::size_t kGrain = 256;
 constexpr uint32_t kMaximumForcedCuts = 7;
+// Cosine of the angle (0.8 rad) under which a lamp may see the side of a first sheet, and how often sheets
+// are cut for it.
+constexpr float kNarrowCosine = 0.7f;
+constexpr int kMostWideCuts = 4;
 // Nodes that the path of a caster's own corner has, about.
 constexpr std::size_t kNodesOfCorner = 8;
 // Of the paths and sheets that a caster's triangle has, about.
 constexpr std::size_t kBytesOfTriangle = 3000;
+// Of the memory: while paths take less, sheets are cut ahead.
+constexpr float kPartAhead = 0.2f;
 // By how much a single path stands for light of a wider beam at each boundary that it passes.
 constexpr float kSpreadAtBoundary = 2.0f;
 
@@ -226,7 +232,30 @@ void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
     cut(forced[cuts], parts);
     for (Sheet& sheet : parts) sheet.cuts = 0;
   }
+  cutWide(sheets);
   firstSheets_ = sheets.size();
+}
+
+// Those that a lamp close by sees under a wide angle.
+void LightSheets::cutWide(std::vector<Sheet>& sheets) {
+  std::vector<Sheet> wide;
+  const auto isWide = [&](const Sheet& sheet) {
+    const auto direction = [&](int i) { return tree.nodes[sheet.node[i % 3]].direction; };
+    for (int i = 0; i < 3; ++i)
+      if (dot(direction(i), direction(i + 1)) < kNarrowCosine) return true;
+    return false;
+  };
+  for (int round = 0; round < kMostWideCuts; ++round) {
+    wide.clear();
+    const auto narrow = std::stable_partition(sheets.begin(), sheets.end(),
+                                              [&](const Sheet& sheet) { return !isWide(sheet); });
+    wide.assign(narrow, sheets.end());
+    if (wide.empty()) return;
+    const std::size_t kept = std::size_t(narrow - sheets.begin());
+    sheets.resize(kept);
+    cut(wide, sheets);
+    for (std::size_t i = kept; i < sheets.size(); ++i) sheets[i].cuts = 0;
+  }
 }
 
 void LightSheets::cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts) {
@@ -280,6 +309,12 @@ void LightSheets::cut(std::span<const Sheet> sheets, std::vector<Sheet>& parts) 
   });
 }
 
+// Of the memory, the part that paths take, whatever lists were made for pictures before.
+float LightSheets::partOfMemory() const {
+  const std::size_t used = tree.nodes.size() * sizeof(PathNode) + tree.spreads.size() * sizeof(PathSpread);
+  return float(used) / float(settings_.mostBytes);
+}
+
 std::size_t LightSheets::bytes() const {
   std::size_t sum = tree.nodes.capacity() * sizeof(PathNode) + tree.spreads.capacity() * sizeof(PathSpread) +
                     firstOfCorner_.capacity() * sizeof(uint32_t);
@@ -311,7 +346,7 @@ void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed,
     early.clear();
     next.clear();
     memory_.fresh.clear();
-    const bool hasRoom = bytes() < settings_.mostBytes / 2;
+    const bool hasRoom = partOfMemory() < kPartAhead;
     for (const Sheet& sheet : sheets) {
       if (!isOneWay(tree.nodes, sheet)) {
         mixed.push_back(sheet);

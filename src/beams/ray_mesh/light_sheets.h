@@ -126,6 +126,7 @@ class LightSheets {
   vec3 fluxOf(const Sheet& sheet) const;
   vec3 fluxOf(const Sheet& sheet, vec3 a, vec3 b, vec3 c) const;
   std::vector<vec3> fluxesOntoTriangles(const CasterLight& light) const;
+  void cutWide(std::vector<Sheet>& sheets);
   void expand(const Sheet& sheet, std::vector<Sheet>& children);
   void traceChildren(std::vector<Sheet>& children);
   void prune(std::vector<Sheet>& sheets);
@@ -135,6 +136,7 @@ class LightSheets {
   void giveToOnes(std::span<const Sheet> sheets, std::vector<Sheet>& next);
   void giveToEach(std::span<const Sheet> sheets, std::vector<Sheet>& next);
   Sheet pathOfCorner(const Sheet& sheet, int corner) const;
+  float partOfMemory() const;
   float spreadAt(std::array<uint32_t, 3> nodes) const;
   bool isCutAhead(const Sheet& sheet) const;
   bool carriesNone(uint32_t node) const;

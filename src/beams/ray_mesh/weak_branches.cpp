@@ -12,6 +12,10 @@ constexpr float kWeakBranch = 0.02f;
 constexpr double kLeftOut = 0.07;  // of the error
 // Of the incident flux, times the error: less than this is not followed sheet by sheet.
 constexpr float kLeastCarried = 2e-4f;
+// Of light that is trapped there is no end: after so many boundaries it is twice as much for each so much of
+// the memory that paths take past a part of it.
+constexpr uint8_t kLongWay = 6;
+constexpr float kFreePart = 0.25f, kPartOfDoubling = 1.0f / 32, kMostDoublings = 24;
 
 }  // namespace
 
@@ -49,10 +53,13 @@ void LightSheets::prune(std::vector<Sheet>& sheets) {
 // sheets that carry little some are taken out by lot, with their light given to the others: in the mean
 // nothing is missing, and long ways of trapped light cost little.
 void LightSheets::chooseAmongWeak(std::vector<Sheet>& children) {
-  const float least = kLeastCarried * settings_.error * float(stats.incidentFlux);
+  const float usual = kLeastCarried * settings_.error * float(stats.incidentFlux);
+  const float crowding = std::max(partOfMemory() - kFreePart, 0.0f) / kPartOfDoubling;
+  const float crowded = usual * std::exp2(std::min(crowding, kMostDoublings));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < children.size(); ++i) {
     Sheet child = children[i];
+    const float least = child.generation > kLongWay ? crowded : usual;
     float left = luminanceOf(carried(child));
     if (!(left > 0)) continue;
     const PathNode& node = tree.nodes[child.node[0]];
