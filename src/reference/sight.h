@@ -2,8 +2,8 @@
 #pragma once
 
 #include "reference/direct.h"
+#include "reference/draws.h"
 #include "reference/photon_map.h"
-#include "reference/sampling.h"
 
 namespace nephroid {
 
@@ -33,8 +33,9 @@ class Sight {
   // All must outlive this.
   Sight(const Scene& scene, const Boundaries& boundaries, const Lights& lights);
 
-  // A sample of the luminance along a ray that begins inside `media`.
-  Seen look(const Ray& ray, const MediumStack& media, const PassLight& light, Random& random) const;
+  // A sample of the luminance along a ray that begins inside `media`. At the first glass the view goes on by
+  // both ways, reflected and transmitted, and further on by one of them, with the probability of its part.
+  Seen look(const Ray& ray, const MediumStack& media, const PassLight& light, Draws& draws) const;
 
  private:
   // The state of a view ray.
@@ -43,15 +44,20 @@ class Sight {
     Ray ray;
     float traveled = 0;  // m before the ray's origin
     uint32_t band = 0;
+    uint32_t encounters = 0;
+    uint32_t splits = 0;  // surfaces from which it went on by both ways
     vec3 weight(const PassLight& light) const;
   };
 
-  void lookAtReceiver(const View& view, const Hit& hit, const PassLight& light, Random& random,
+  void follow(View view, const PassLight& light, Draws& draws, Seen& seen) const;
+  bool isSplit(const View& view, const Hit& hit) const;
+  bool goOn(const Hit& hit, const PassLight& light, Choice choice, float u, View& view) const;
+  void lookAtReceiver(const View& view, const Hit& hit, const PassLight& light, Draws& draws,
                       Seen& seen) const;
   vec3 gather(const View& view, const Hit& hit, vec3 normal, const PassLight& light) const;
-  vec3 scattered(const View& view, float length, const PassLight& light, Random& random) const;
-  vec3 scatteredFromLight(const View& view, float length, uint32_t source, Random& random) const;
-  vec3 scatteredFromCasters(const View& view, float length, const PassLight& light, Random& random) const;
+  vec3 scattered(const View& view, float length, const PassLight& light, Draws& draws) const;
+  vec3 scatteredFromLight(const View& view, float length, uint32_t source, Draws& draws) const;
+  vec3 scatteredFromCasters(const View& view, float length, const PassLight& light, Draws& draws) const;
 
   const Scene& scene_;
   const Boundaries& boundaries_;
