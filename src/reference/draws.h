@@ -35,9 +35,9 @@ inline uint32_t placeInOrder(uint32_t index, uint32_t count, uint32_t order) {
   return (index + order) % count;
 }
 
-// The numbers of one of `count` samples that are summed up. The first numbers of all the samples are in as many
-// equal parts of [0, 1), one in each; so are the second ones, and so on. Which sample has which part is random
-// each time, so that each sample by itself is random (Latin hypercubes, McKay et al. 1979).
+// The numbers of one of `count` samples that are summed up. The first numbers of all the samples are in as
+// many equal parts of [0, 1), one in each; so are the second ones, and so on. Which sample has which part is
+// random each time, so that each sample by itself is random (Latin hypercubes, McKay et al. 1979).
 class Draws {
  public:
   // `random`: for this set of samples, the same for each of them.

@@ -1,7 +1,10 @@
 #include "reference/image.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "core/color.h"
 
 namespace nephroid {
 namespace {
@@ -10,7 +13,9 @@ constexpr float kFirstRadius = 2;            // pixels, of the first pass, on su
 constexpr float kFirstRadiusInVolumes = 10;  // pixels
 constexpr uint32_t kMostPhotonsInPart = 1u << 20;
 constexpr uint64_t kMostLooks = 16;
-constexpr float kShrinking = 2.0f / 3;       // alpha of Knaus and Zwicker 2011, eq. 15
+constexpr uint32_t kPilotsInPart = 16;  // of the parts that photons are guided by
+constexpr double kMostPilotLooks = 1 << 15;
+constexpr float kShrinking = 2.0f / 3;  // alpha of Knaus and Zwicker 2011, eq. 15
 
 // What is left of the first kernel's area or volume in the part of an index from 0, counted over all passes.
 float kernelLeft(uint32_t part) {
@@ -64,7 +69,33 @@ ReferenceImage::ReferenceImage(const Scene& sceneToSee, const RayScene& rays,
       total_(std::size_t(settings_.size.x) * settings_.size.y),
       direct_(total_),
       caustics_(total_),
-      shafts_(total_) {}
+      shafts_(total_) {
+  if (!tracer_.isDark() && std::min(settings_.pilots, settings_.photons) >= kPilotsInPart)
+    tracer_.guide(findGuide());
+}
+
+// By a few photons, sent evenly, and by looks spread over the picture, in one thread.
+PhotonGuide ReferenceImage::findGuide() const {
+  const uint32_t parts = std::bit_floor(std::min(settings_.pilots, settings_.photons) / kPilotsInPart);
+  const PhotonPass pass =
+      photonPass(scene_, settings_.spectrum, settings_.seed, ~uint64_t{0}, parts * kPilotsInPart);
+  std::vector<Splat> splats;
+  PassLight light = traceLight(pass, splats);
+  PhotonWorths worths{std::vector<double>(parts, 0.0), kPilotsInPart};
+  for (const Splat& splat : splats) worths.add(splat.photon, luminanceOf(splat.luminance));
+  const double pixels = double(settings_.size.x) * settings_.size.y;
+  const auto step = uint32_t(std::ceil(std::sqrt(pixels / kMostPilotLooks)));  // pixels
+  PhotonWorths gathered{std::vector<double>(parts, 0.0), kPilotsInPart};
+  light.worths = &gathered;
+  for (uint32_t row = step / 2; row < settings_.size.y; row += step)
+    for (uint32_t column = step / 2; column < settings_.size.x; column += step) {
+      Draws draws(randomOf(~settings_.seed, pass.index, uint64_t(row) * settings_.size.x + column), 0, 1);
+      sight_.look(camera_.rayThrough(placeInPixel({column, row}, draws.uniform())), mediaOfCamera_, light,
+                  draws);
+    }
+  for (uint32_t i = 0; i < parts; ++i) worths.squares[i] += gathered.squares[i] * step * step;
+  return PhotonGuide(worths.squares);
+}
 
 PassLight ReferenceImage::traceLight(const PhotonPass& pass, std::vector<Splat>& splats) const {
   KeeperSettings keeping{&scene_, &boundaries_, &camera_, &pass, mediaOfCamera_.top()};

@@ -31,6 +31,7 @@ class ReferenceImage final : public Estimate {
     std::vector<vec3> total, direct, caustics, shafts;
   };
 
+  PhotonGuide findGuide() const;
   PassLight traceLight(const PhotonPass& pass, std::vector<Splat>& splats) const;
   void look(const PhotonPass& pass, const PassLight& light, PassSums& sums) const;
 

@@ -13,6 +13,7 @@ constexpr uint32_t kPlaces = 4;  // of a segment, at which it is seen
 StoredPhoton stored(const PhotonSegment& segment, vec3 flux) {
   StoredPhoton photon;
   photon.flux = flux;
+  photon.index = segment.photon;
   photon.band = uint16_t(segment.band);
   photon.isDispersed = segment.isDispersed;
   return photon;
@@ -77,7 +78,7 @@ void PhotonKeeper::splat(const PhotonSegment& segment, vec3 place, vec3 reflecte
   luminance *=
       settings_.boundaries->transmittance(settings_.mediumOfCamera, place, seen.direction, seen.distance);
   if (segment.isDispersed) luminance *= settings_.pass->bands[segment.band].weight;
-  splats.push_back({seen.pixel, isScattered, luminance});
+  splats.push_back({seen.pixel, segment.photon, isScattered, luminance});
 }
 
 }  // namespace nephroid

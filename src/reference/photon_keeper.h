@@ -11,6 +11,7 @@ namespace nephroid {
 // Luminance (nit) that a photon adds to a pixel.
 struct Splat {
   uint32_t pixel = 0;
+  uint32_t photon = 0;  // in its pass
   bool isScattered = false;
   vec3 luminance{0};
 };

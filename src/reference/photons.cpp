@@ -10,8 +10,8 @@ namespace {
 constexpr uint32_t kMostEncounters = 4096;
 constexpr float kLeastThroughput = 1e-7f;
 
-// Of 2^32. Numbers that go on by such a step fill [0, 1) evenly, from wherever they begin and however few they
-// are, in pairs too (the plastic number's powers, Roberts 2018).
+// Of 2^32. Numbers that go on by such a step fill [0, 1) evenly, from wherever they begin and however few
+// they are, in pairs too (the plastic number's powers, Roberts 2018).
 constexpr uint32_t kStepOfPlaces = 3242174889u, kStepOfBands = 2447445414u;
 
 float stepped(uint32_t first, uint32_t index, uint32_t step) {
@@ -33,6 +33,7 @@ struct PhotonTracer::Photon {
   Ray ray;
   vec3 emitted{0};  // lm
   uint32_t band = 0;
+  uint32_t index = 0;
   bool comesFromAfar = false;  // and has met nothing yet, so that no air has weakened it
   Hit hit;
   uint32_t encounters = 0;
@@ -98,10 +99,11 @@ void PhotonTracer::follow(const PhotonPass& pass, Random& random, Photon& photon
 }
 
 PhotonTracer::Photon PhotonTracer::emit(const PhotonPass& pass, uint32_t index, Random& random) const {
-  const double choice = (double(index) + random.uniform()) / pass.photons;
+  const auto [choice, weight] = guide_.at((double(index) + random.uniform()) / pass.photons);
   const EmittedPhoton emitted = lights_.emit(choice, stepped(pass.firstPlace, index, kStepOfPlaces));
   Photon photon;
-  photon.emitted = emitted.flux / float(pass.photons);
+  photon.index = index;
+  photon.emitted = emitted.flux * (weight / float(pass.photons));
   photon.path.direction = emitted.direction;
   photon.path.media = lights_.meetsCaster(emitted.light) ? boundaries_.mediaAround(emitted.origin)
                                                          : mediaOfLights_[emitted.light];
@@ -127,6 +129,7 @@ bool PhotonTracer::fly(Random& random, Photon& photon, PhotonVisitor& visitor, F
   segment.endsOnReceiver = isHit && !boundaries_.isCaster(hit);
   segment.isDispersed = path.isDispersed;
   segment.band = photon.band;
+  segment.photon = photon.index;
   segment.sample = random.uniform();
   visitor.segment(segment);
   path.throughput *= segment.transmittance(boundaries_, segment.length);
@@ -143,8 +146,8 @@ bool PhotonTracer::fly(Random& random, Photon& photon, PhotonVisitor& visitor, F
 bool PhotonTracer::meetCaster(const PhotonPass& pass, Choice choice, Random& random, Photon& photon,
                               FluxLedger& ledger) const {
   const vec3 arriving = photon.flux();
-  const bool goesOn =
-      boundaries_.send(photon.hit, pass.bands[photon.band], Carried::flux, choice, random.uniform(), photon.path);
+  const bool goesOn = boundaries_.send(photon.hit, pass.bands[photon.band], Carried::flux, choice,
+                                       random.uniform(), photon.path);
   const vec3 leaving = photon.flux();
   const bool isSplit =
       paths_ == Paths::all && choice != Choice::random;  // the other part is a photon as well

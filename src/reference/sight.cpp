@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/color.h"
+
 namespace nephroid {
 namespace {
 
@@ -9,6 +11,7 @@ constexpr uint32_t kMostEncounters = 1024;
 constexpr float kLeastThroughput = 1e-5f;
 constexpr uint32_t kMostSplits = 3;
 constexpr float kLeastSplit = 0.02f;  // of the throughput
+constexpr float kLeastPart = 0.005f;  // of the light, that is worth a way of its own
 
 float largest(vec3 v) {
   return std::max({v.x, v.y, v.z});
@@ -79,8 +82,7 @@ void Sight::follow(View view, const PassLight& light, Draws& draws, Seen& seen) 
   while (view.encounters < kMostEncounters) {
     const bool isHit = boundaries_.rayScene().intersect(view.ray, hit);
     const float length = isHit ? hit.distance : std::numeric_limits<float>::infinity();
-    if (boundaries_.isScattering(view.path.media.top()))
-      seen.shafts += scattered(view, length, light, draws);
+    if (boundaries_.isScattering(view.path.media.top())) seen.shafts += scattered(view, length, light, draws);
     view.path.throughput *=
         boundaries_.transmittance(view.path.media.top(), view.ray.origin, view.ray.direction, length);
     if (!isHit) {
@@ -89,24 +91,27 @@ void Sight::follow(View view, const PassLight& light, Draws& draws, Seen& seen) 
     }
     view.traveled += length;
     if (!boundaries_.isCaster(hit)) return lookAtReceiver(view, hit, light, draws, seen);
-    Choice choice = Choice::random;
-    if (isSplit(view, hit)) {
-      View reflected = view;
-      ++reflected.splits;
+    View reflected = view;
+    const bool isSplit = splits(hit, light, view, reflected);
+    if (isSplit) {
       Draws others = draws.branch();
-      if (goOn(hit, light, Choice::reflected, 0, reflected)) {
-        follow(reflected, light, others, seen);
-        ++view.splits;
-      }
-      choice = Choice::transmitted;
+      follow(reflected, light, others, seen);
     }
-    if (!goOn(hit, light, choice, draws.uniform(), view)) return;
+    if (!goOn(hit, light, isSplit ? Choice::transmitted : Choice::random, draws.uniform(), view)) return;
   }
 }
 
-bool Sight::isSplit(const View& view, const Hit& hit) const {
-  return view.splits < kMostSplits && largest(view.path.throughput) >= kLeastSplit &&
-         boundaries_.materialOf(hit).type == MaterialType::dielectric;
+// Whether the view goes on by both ways; `reflected` is then one of them, and `view` has to take the other.
+bool Sight::splits(const Hit& hit, const PassLight& light, View& view, View& reflected) const {
+  const float before = largest(view.path.throughput);
+  if (view.splits == kMostSplits || before < kLeastSplit ||
+      boundaries_.materialOf(hit).type != MaterialType::dielectric ||
+      !goOn(hit, light, Choice::reflected, 0, reflected))
+    return false;
+  const float part = largest(reflected.path.throughput) / before;
+  if (part < kLeastPart || part > 1 - kLeastPart) return false;
+  reflected.splits = ++view.splits;
+  return true;
 }
 
 // From a caster. False: there is nothing more to see this way.
@@ -130,22 +135,28 @@ void Sight::lookAtReceiver(const View& view, const Hit& hit, const PassLight& li
   const vec3 weight = view.weight(light);
   const vec3 reflected = diffuseReflectance(scene_, hit) / kPi;  // 1/sr
   for (uint32_t source = 0; source < lights_.count(); ++source)
-    seen.direct += weight * reflected * directIlluminance(boundaries_, lights_, source, point, draws.uniform());
+    seen.direct +=
+        weight * reflected * directIlluminance(boundaries_, lights_, source, point, draws.uniform());
   if (view.path.metCaster || !light.isSplatted)
-    seen.caustics += view.path.throughput * reflected * gather(view, hit, point.geometricNormal, light);
+    seen.caustics += gather(view, hit, point, view.path.throughput * reflected, light);
   seen.rest += weight * (reflected * scene_.environment.ambient + boundaries_.materialOf(hit).emission);
 }
 
-// lux, with the weight of bands, by the photons on a disk (Hachisuka et al. 2008; Epanechnikov's kernel).
-vec3 Sight::gather(const View& view, const Hit& hit, vec3 normal, const PassLight& light) const {
+// nit, by the photons on a disk (Hachisuka et al. 2008; Epanechnikov's kernel). `reflected`: 1/sr, with what
+// is left on the way to the camera.
+vec3 Sight::gather(const View& view, const Hit& hit, const LitPoint& point, vec3 reflected,
+                   const PassLight& light) const {
   const float radius = std::min(light.surfaceRadius * view.traveled, light.largestRadius);
+  const vec3 highest = reflected * (2 / (kPi * radius * radius));
   vec3 sum(0);
   light.onSurfaces.around(hit.flatPosition, radius, [&](const StoredPhoton& photon, float squared) {
-    if (photon.object != hit.object || dot(photon.direction, normal) < 0.3f) return;
-    sum +=
-        fluxInBand(photon, view.path.isDispersed, view.band, light.bands) * (1 - squared / (radius * radius));
+    if (photon.object != hit.object || dot(photon.direction, point.geometricNormal) < 0.3f) return;
+    const vec3 luminance = fluxInBand(photon, view.path.isDispersed, view.band, light.bands) * highest *
+                           (1 - squared / (radius * radius));
+    sum += luminance;
+    if (light.worths) light.worths->add(photon.index, luminanceOf(luminance));
   });
-  return sum * (2 / (kPi * radius * radius));
+  return sum;
 }
 
 // Light scattered once, in what the ray's next `length` (m) goes through.
@@ -180,8 +191,7 @@ vec3 Sight::scatteredFromLight(const View& view, float length, uint32_t source, 
 
 // With the photons in balls around a few places of the ray. Each place is in its own part of the range that
 // photons can be near.
-vec3 Sight::scatteredFromCasters(const View& view, float length, const PassLight& light,
-                                 Draws& draws) const {
+vec3 Sight::scatteredFromCasters(const View& view, float length, const PassLight& light, Draws& draws) const {
   constexpr uint32_t kPlaces = 4;
   const uint32_t medium = view.path.media.top();
   const float extinction = boundaries_.meanExtinction(medium);

@@ -17,7 +17,16 @@ struct Seen {
   vec3 rest{0};
 };
 
-// The light of one pass.
+// What photons add to the picture, of each of some equal parts of a pass.
+struct PhotonWorths {
+  std::vector<double> squares;  // sums of the squares of luminances (nit)
+  uint32_t photonsInPart = 1;
+  void add(uint32_t photon, float luminance) {
+    squares[photon / photonsInPart] += double(luminance) * double(luminance);
+  }
+};
+
+// The light of one pass, or of a part of one.
 struct PassLight {
   std::vector<Band> bands;
   PhotonMap onSurfaces;
@@ -26,6 +35,7 @@ struct PassLight {
   float volumeRadius = 0;
   float largestRadius = 0;  // m
   bool isSplatted = false;  // light that is seen directly was splatted, so it must not be gathered again
+  PhotonWorths* worths = nullptr;  // to be added to, in one thread
 };
 
 class Sight {
@@ -50,11 +60,12 @@ class Sight {
   };
 
   void follow(View view, const PassLight& light, Draws& draws, Seen& seen) const;
-  bool isSplit(const View& view, const Hit& hit) const;
+  bool splits(const Hit& hit, const PassLight& light, View& view, View& reflected) const;
   bool goOn(const Hit& hit, const PassLight& light, Choice choice, float u, View& view) const;
   void lookAtReceiver(const View& view, const Hit& hit, const PassLight& light, Draws& draws,
                       Seen& seen) const;
-  vec3 gather(const View& view, const Hit& hit, vec3 normal, const PassLight& light) const;
+  vec3 gather(const View& view, const Hit& hit, const LitPoint& point, vec3 reflected,
+              const PassLight& light) const;
   vec3 scattered(const View& view, float length, const PassLight& light, Draws& draws) const;
   vec3 scatteredFromLight(const View& view, float length, uint32_t source, Draws& draws) const;
   vec3 scatteredFromCasters(const View& view, float length, const PassLight& light, Draws& draws) const;
