@@ -13,7 +13,7 @@ Boundaries::Boundaries(const Scene& scene, const RayScene& rayScene)
   for (const Material* material : materials_) extinctions_.push_back(extinctionOf(*material));
 }
 
-bool Boundaries::send(const Hit& hit, const Band& band, Carried carried, Choice choice, Random& random,
+bool Boundaries::send(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,
                       Path& path) const {
   path.metCaster = true;
   const Material& material = *materials_[hit.object];
@@ -24,10 +24,10 @@ bool Boundaries::send(const Hit& hit, const Band& band, Carried carried, Choice 
   }
   if (material.isDispersive()) path.isDispersed = true;
   if (material.thinWalled) {
-    crossThinWall(hit, band, choice, random.uniform(), path);
+    crossThinWall(hit, band, choice, u, path);
     return true;
   }
-  return crossDielectric(hit, band, carried, choice, random.uniform(), path);
+  return crossDielectric(hit, band, carried, choice, u, path);
 }
 
 bool Boundaries::crossDielectric(const Hit& hit, const Band& band, Carried carried, Choice choice, float u,

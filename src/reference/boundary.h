@@ -1,7 +1,6 @@
 // What happens to light, or to a view ray, at the surface of a caster.
 #pragma once
 
-#include "core/random.h"
 #include "reference/spectrum.h"
 #include "trace/media.h"
 
@@ -30,9 +29,8 @@ class Boundaries {
   Boundaries(const Scene& scene, const RayScene& rays);
 
   // Continues a path at the surface of a caster. Returns false where the path ends: its light is lost, or
-  // `choice` is transmitted and all light is reflected.
-  bool send(const Hit& hit, const Band& band, Carried carried, Choice choice, Random& random,
-            Path& path) const;
+  // `choice` is transmitted and all light is reflected. `u` in [0, 1): for a random choice.
+  bool send(const Hit& hit, const Band& band, Carried carried, Choice choice, float u, Path& path) const;
 
   // The transmittance (0..1 per channel) of an object's material, or of the air for kNone, from `from` along
   // `direction` (unit). `length`: m, may be infinite.

@@ -7,8 +7,8 @@ bool isLit(const RayScene& rays, const Illumination& illumination, vec3 point, f
 }
 
 vec3 directIlluminance(const Boundaries& boundaries, const Lights& lights, uint32_t light,
-                       const LitPoint& point, Random& random) {
-  const Illumination illumination = lights.illumination(light, point.position, random.uniform());
+                       const LitPoint& point, float u) {
+  const Illumination illumination = lights.illumination(light, point.position, u);
   const float cosine = -dot(illumination.direction, point.normal);
   const float cosineToSurface = -dot(illumination.direction, point.geometricNormal);
   if (cosine <= 0 || cosineToSurface <= 0) return vec3(0);

@@ -16,9 +16,9 @@ struct LitPoint {
 };
 
 // Illuminance (lux) by one light, with a shadow ray. The air weakens lights on their way, except directional
-// lights, whose given illuminance is valid everywhere in the air.
+// lights, whose given illuminance is valid everywhere in the air. `u` in [0, 1): the place on the light.
 vec3 directIlluminance(const Boundaries& boundaries, const Lights& lights, uint32_t light,
-                       const LitPoint& point, Random& random);
+                       const LitPoint& point, float u);
 
 // Whether nothing stands between `point` and the light of `illumination`. `clearance`: m, the beginning of
 // the way that is not tested.

@@ -5,6 +5,8 @@
 namespace nephroid {
 namespace {
 
+constexpr uint32_t kMethod = 2;  // counts the changes of what a pass computes
+
 class SceneHasher {
  public:
   template <class... Values>
@@ -51,6 +53,7 @@ void add(SceneHasher& hasher, const Medium& m) {
 
 uint64_t fingerprint(const Scene& scene) {
   SceneHasher hasher;
+  hasher.add(kMethod);
   const Camera& camera = scene.camera;
   hasher.add(camera.position, camera.target, camera.up, camera.verticalFov);
   hasher.add(scene.environment.ambient, scene.environment.background);

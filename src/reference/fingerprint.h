@@ -1,12 +1,12 @@
-// Tells whether two scenes have the same light.
+// Tells whether passes can be added to those of before.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace nephroid {
 
-// A hash of everything that the light in a scene depends on. Scenes with equal hashes may be treated as the
-// same scene.
+// A hash of everything that the light in a scene depends on, and of the method of the reference. Passes of
+// equal hashes, and of equal settings, belong to the same estimate.
 uint64_t fingerprint(const Scene& scene);
 
 }  // namespace nephroid

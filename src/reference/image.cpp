@@ -1,19 +1,44 @@
 #include "reference/image.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "core/color.h"
 
 namespace nephroid {
 namespace {
 
 constexpr float kFirstRadius = 2;            // pixels, of the first pass, on surfaces
 constexpr float kFirstRadiusInVolumes = 10;  // pixels
-constexpr float kShrinking = 2.0f / 3;       // alpha of Knaus and Zwicker 2011, eq. 15
+constexpr uint32_t kMostPhotonsInPart = 1u << 20;
+constexpr uint64_t kMostLooks = 16;
+constexpr uint32_t kPilotsInPart = 16;  // of the parts that photons are guided by
+constexpr double kMostPilotLooks = 1 << 15;
+constexpr float kShrinking = 2.0f / 3;  // alpha of Knaus and Zwicker 2011, eq. 15
 
-// What is left of the first pass's area or volume in the pass of an index from 0.
-float kernelLeft(uint32_t pass) {
+// What is left of the first kernel's area or volume in the part of an index from 0, counted over all passes.
+float kernelLeft(uint32_t part) {
   double left = 1;
-  for (uint32_t i = 1; i <= pass; ++i) left *= (i + double(kShrinking)) / (i + 1.0);
+  for (uint32_t i = 1; i <= part; ++i) left *= (i + double(kShrinking)) / (i + 1.0);
   return static_cast<float>(left);
+}
+
+// A pass is traced in parts, so that its photons need not all be kept at a time.
+uint32_t partsOf(const ReferenceSettings& settings) {
+  return (settings.photons + kMostPhotonsInPart - 1) / kMostPhotonsInPart;
+}
+
+// Into each pixel in a pass, at least one for each part: about as many as photons, as both take time alike.
+uint32_t looksOf(const ReferenceSettings& settings, uint32_t parts) {
+  const uint64_t pixels = std::max(uint64_t(settings.size.x) * settings.size.y, uint64_t{1});
+  return std::max(parts, uint32_t(std::clamp(settings.photons / pixels, uint64_t{1}, kMostLooks)));
+}
+
+// Pixels from the picture's corner, by a filter as wide as the pixel. Evenly spread numbers in [0, 1) give
+// evenly spread places.
+vec2 placeInPixel(uvec2 pixel, float u) {
+  return vec2(pixel) + pointOnCurve(double(u));
 }
 
 template <class T>
@@ -44,17 +69,41 @@ ReferenceImage::ReferenceImage(const Scene& sceneToSee, const RayScene& rays,
       total_(std::size_t(settings_.size.x) * settings_.size.y),
       direct_(total_),
       caustics_(total_),
-      shafts_(total_) {}
+      shafts_(total_) {
+  if (!tracer_.isDark() && std::min(settings_.pilots, settings_.photons) >= kPilotsInPart)
+    tracer_.guide(findGuide());
+}
 
-PassLight ReferenceImage::traceLight(std::vector<Splat>& splats) const {
+// By a few photons, sent evenly, and by looks spread over the picture, in one thread.
+PhotonGuide ReferenceImage::findGuide() const {
+  const uint32_t parts = std::bit_floor(std::min(settings_.pilots, settings_.photons) / kPilotsInPart);
   const PhotonPass pass =
-      photonPass(scene_, settings_.spectrum, settings_.seed, passesDone_, settings_.photons);
-  KeeperSettings keeping{&scene_, &boundaries_, &camera_, &pass.bands, mediaOfCamera_.top()};
+      photonPass(scene_, settings_.spectrum, settings_.seed, ~uint64_t{0}, parts * kPilotsInPart);
+  std::vector<Splat> splats;
+  PassLight light = traceLight(pass, splats);
+  PhotonWorths worths{std::vector<double>(parts, 0.0), kPilotsInPart};
+  for (const Splat& splat : splats) worths.add(splat.photon, luminanceOf(splat.luminance));
+  const double pixels = double(settings_.size.x) * settings_.size.y;
+  const auto step = uint32_t(std::ceil(std::sqrt(pixels / kMostPilotLooks)));  // pixels
+  PhotonWorths gathered{std::vector<double>(parts, 0.0), kPilotsInPart};
+  light.worths = &gathered;
+  for (uint32_t row = step / 2; row < settings_.size.y; row += step)
+    for (uint32_t column = step / 2; column < settings_.size.x; column += step) {
+      Draws draws(randomOf(~settings_.seed, pass.index, uint64_t(row) * settings_.size.x + column), 0, 1);
+      sight_.look(camera_.rayThrough(placeInPixel({column, row}, draws.uniform())), mediaOfCamera_, light,
+                  draws);
+    }
+  for (uint32_t i = 0; i < parts; ++i) worths.squares[i] += gathered.squares[i] * step * step;
+  return PhotonGuide(worths.squares);
+}
+
+PassLight ReferenceImage::traceLight(const PhotonPass& pass, std::vector<Splat>& splats) const {
+  KeeperSettings keeping{&scene_, &boundaries_, &camera_, &pass, mediaOfCamera_.top()};
   keeping.splats = settings_.seenDirectly == SeenDirectly::splatted;
   FluxLedger ledger;
   std::vector<PhotonKeeper> groups = tracePass(tracer_, pass, PhotonKeeper(keeping), ledger);
   splats = joined(groups, &PhotonKeeper::splats);
-  const float left = kernelLeft(passesDone_);
+  const float left = kernelLeft(passesDone_ * pass.parts + pass.part);
   const float surfaceRadius = kFirstRadius * camera_.pixelHeight() * std::sqrt(left);
   const float volumeRadius = kFirstRadiusInVolumes * camera_.pixelHeight() * std::cbrt(left);
   const float middle = distance(scene_.camera.target, scene_.camera.position);  // m
@@ -67,32 +116,45 @@ PassLight ReferenceImage::traceLight(std::vector<Splat>& splats) const {
           keeping.splats};
 }
 
-void ReferenceImage::pass() {
-  std::vector<Splat> splats;
-  const PassLight light = traceLight(splats);
-  const std::size_t pixels = std::size_t(settings_.size.x) * settings_.size.y;
-  std::vector<vec3> all(pixels), straight(pixels), fromCasters(pixels), scattered(pixels);
+// The looks that a part of the pass gives light to.
+void ReferenceImage::look(const PhotonPass& pass, const PassLight& light, PassSums& sums) const {
+  const uint32_t looks = looksOf(settings_, pass.parts);
+  const float weight = 1 / float(looks);
   oneapi::tbb::parallel_for(0u, settings_.size.y, [&](uint32_t row) {
     for (uint32_t column = 0; column < settings_.size.x; ++column) {
       const std::size_t i = std::size_t(row) * settings_.size.x + column;
-      Random random = randomOf(~settings_.seed, passesDone_, i);
-      const vec2 pixel(float(column) + random.uniform(), float(row) + random.uniform());
-      const Seen seen = sight_.look(camera_.rayThrough(pixel), mediaOfCamera_, light, random);
-      straight[i] = seen.direct;
-      fromCasters[i] = seen.caustics;
-      scattered[i] = seen.shafts;
-      all[i] = seen.direct + seen.caustics + seen.shafts + seen.rest;
+      const Random random = randomOf(~settings_.seed, passesDone_, i);
+      for (uint32_t look = pass.part; look < looks; look += pass.parts) {
+        Draws draws(random, look, looks);
+        const vec2 place = placeInPixel({column, row}, draws.uniform());
+        const Seen seen = sight_.look(camera_.rayThrough(place), mediaOfCamera_, light, draws);
+        sums.direct[i] += weight * seen.direct;
+        sums.caustics[i] += weight * seen.caustics;
+        sums.shafts[i] += weight * seen.shafts;
+        sums.total[i] += weight * (seen.direct + seen.caustics + seen.shafts + seen.rest);
+      }
     }
   });
-  for (const Splat& splat : splats) {
-    (splat.isScattered ? scattered : fromCasters)[splat.pixel] += splat.luminance;
-    all[splat.pixel] += splat.luminance;
+}
+
+void ReferenceImage::pass() {
+  PhotonPass pass = photonPass(scene_, settings_.spectrum, settings_.seed, passesDone_, settings_.photons);
+  pass.parts = partsOf(settings_);
+  const std::vector<vec3> none(std::size_t(settings_.size.x) * settings_.size.y, vec3(0));
+  PassSums sums{none, none, none, none};
+  for (pass.part = 0; pass.part < pass.parts; ++pass.part) {
+    std::vector<Splat> splats;
+    look(pass, traceLight(pass, splats), sums);
+    for (const Splat& splat : splats) {
+      (splat.isScattered ? sums.shafts : sums.caustics)[splat.pixel] += splat.luminance;
+      sums.total[splat.pixel] += splat.luminance;
+    }
   }
   ++passesDone_;
-  total_.add(all, passesDone_);
-  direct_.add(straight, passesDone_);
-  caustics_.add(fromCasters, passesDone_);
-  shafts_.add(scattered, passesDone_);
+  total_.add(sums.total, passesDone_);
+  direct_.add(sums.direct, passesDone_);
+  caustics_.add(sums.caustics, passesDone_);
+  shafts_.add(sums.shafts, passesDone_);
 }
 
 double ReferenceImage::noise() const {

@@ -26,7 +26,14 @@ class ReferenceImage final : public Estimate {
   void restore(const Image& image, uint32_t passes) override;
 
  private:
-  PassLight traceLight(std::vector<Splat>& splats) const;
+  // The sums of a pass, of each pixel.
+  struct PassSums {
+    std::vector<vec3> total, direct, caustics, shafts;
+  };
+
+  PhotonGuide findGuide() const;
+  PassLight traceLight(const PhotonPass& pass, std::vector<Splat>& splats) const;
+  void look(const PhotonPass& pass, const PassLight& light, PassSums& sums) const;
 
   const Scene& scene_;
   ReferenceSettings settings_;

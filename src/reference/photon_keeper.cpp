@@ -13,6 +13,7 @@ constexpr uint32_t kPlaces = 4;  // of a segment, at which it is seen
 StoredPhoton stored(const PhotonSegment& segment, vec3 flux) {
   StoredPhoton photon;
   photon.flux = flux;
+  photon.index = segment.photon;
   photon.band = uint16_t(segment.band);
   photon.isDispersed = segment.isDispersed;
   return photon;
@@ -32,7 +33,7 @@ void PhotonKeeper::segment(const PhotonSegment& segment) {
     photon.flux *= segment.transmittance(boundaries, sample.distance) / (sample.density * float(kPlaces));
     photon.direction = segment.ray.direction;
     photon.object = segment.medium;
-    inVolumes.push_back(photon);
+    keep(photon, inVolumes);
     if (!settings_.splats || segment.medium != settings_.mediumOfCamera) continue;
     const auto seen = settings_.camera->project(photon.position);
     if (!seen) continue;
@@ -51,7 +52,7 @@ void PhotonKeeper::landing(const PhotonSegment& segment, const Hit& hit, vec3 fl
   photon.flux *= glm::clamp(dot(arriving, smooth) / dot(arriving, photon.direction), 0.0f, 4.0f);
   photon.position = hit.flatPosition;
   photon.object = hit.object;
-  onSurfaces.push_back(photon);
+  keep(photon, onSurfaces);
   if (!settings_.splats) return;
   const auto seen = settings_.camera->project(photon.position);
   const float cosine = seen ? dot(photon.direction, seen->direction) : 0;
@@ -60,6 +61,11 @@ void PhotonKeeper::landing(const PhotonSegment& segment, const Hit& hit, vec3 fl
   const float clearance =
       settings_.boundaries->rayScene().clearance(hit.object, photon.direction, seen->direction);
   splat(segment, photon.position, reflected, clearance, false, *seen);
+}
+
+void PhotonKeeper::keep(StoredPhoton photon, std::vector<StoredPhoton>& photons) const {
+  photon.flux *= float(settings_.pass->parts);
+  photons.push_back(photon);
 }
 
 // `reflected`: cd toward the camera. `clearance`: m, the beginning of the way there that is not tested.
@@ -71,8 +77,8 @@ void PhotonKeeper::splat(const PhotonSegment& segment, vec3 place, vec3 reflecte
   vec3 luminance = reflected * (seen.perSteradian / (seen.distance * seen.distance));
   luminance *=
       settings_.boundaries->transmittance(settings_.mediumOfCamera, place, seen.direction, seen.distance);
-  if (segment.isDispersed) luminance *= (*settings_.bands)[segment.band].weight;
-  splats.push_back({seen.pixel, isScattered, luminance});
+  if (segment.isDispersed) luminance *= settings_.pass->bands[segment.band].weight;
+  splats.push_back({seen.pixel, segment.photon, isScattered, luminance});
 }
 
 }  // namespace nephroid

@@ -1,4 +1,4 @@
-// Stores the photons of a pass. Photons that the camera sees directly are added to their pixel at once
+// Stores the photons of a pass's part. Photons that the camera sees directly are added to their pixel at once
 // (splatted), without a kernel. All photons are also stored in maps, for view rays that go through casters.
 #pragma once
 
@@ -11,6 +11,7 @@ namespace nephroid {
 // Luminance (nit) that a photon adds to a pixel.
 struct Splat {
   uint32_t pixel = 0;
+  uint32_t photon = 0;  // in its pass
   bool isScattered = false;
   vec3 luminance{0};
 };
@@ -19,7 +20,7 @@ struct KeeperSettings {
   const Scene* scene = nullptr;
   const Boundaries* boundaries = nullptr;
   const Pinhole* camera = nullptr;
-  const std::vector<Band>* bands = nullptr;
+  const PhotonPass* pass = nullptr;
   uint32_t mediumOfCamera = kNone;  // the object it is inside of
   bool splats = true;
 };
@@ -30,10 +31,11 @@ class PhotonKeeper final : public PhotonVisitor {
   void segment(const PhotonSegment& segment) override;
   void landing(const PhotonSegment& segment, const Hit& hit, vec3 flux) override;
 
-  std::vector<StoredPhoton> onSurfaces, inVolumes;
+  std::vector<StoredPhoton> onSurfaces, inVolumes;  // their flux as if the part were the whole pass
   std::vector<Splat> splats;
 
  private:
+  void keep(StoredPhoton photon, std::vector<StoredPhoton>& photons) const;
   void splat(const PhotonSegment& segment, vec3 place, vec3 reflected, float clearance, bool isScattered,
              const Pinhole::Projection& seen);
 

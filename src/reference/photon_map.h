@@ -14,6 +14,7 @@ struct StoredPhoton {
   vec3 flux{0};         // lm on a surface, lm m in a volume; without the weight of the band
   vec3 direction{0};    // unit; on a surface the normal of the lit side, in a volume the direction of travel
   uint32_t object = 0;  // the object that it is on or in; kNone: the air
+  uint32_t index = 0;   // in its pass
   uint16_t band = 0;
   bool isDispersed = false;
 };

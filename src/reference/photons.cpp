@@ -10,6 +10,14 @@ namespace {
 constexpr uint32_t kMostEncounters = 4096;
 constexpr float kLeastThroughput = 1e-7f;
 
+// Of 2^32. Numbers that go on by such a step fill [0, 1) evenly, from wherever they begin and however few
+// they are, in pairs too (the plastic number's powers, Roberts 2018).
+constexpr uint32_t kStepOfPlaces = 3242174889u, kStepOfBands = 2447445414u;
+
+float stepped(uint32_t first, uint32_t index, uint32_t step) {
+  return float((first + index * step) >> 8) * 0x1p-24f;
+}
+
 float largest(vec3 v) {
   return std::max({v.x, v.y, v.z});
 }
@@ -25,6 +33,7 @@ struct PhotonTracer::Photon {
   Ray ray;
   vec3 emitted{0};  // lm
   uint32_t band = 0;
+  uint32_t index = 0;
   bool comesFromAfar = false;  // and has met nothing yet, so that no air has weakened it
   Hit hit;
   uint32_t encounters = 0;
@@ -43,7 +52,10 @@ FluxLedger& FluxLedger::operator+=(const FluxLedger& other) {
 PhotonPass photonPass(const Scene& scene, Spectrum spectrum, uint64_t seed, uint64_t index,
                       uint32_t photons) {
   Random random = randomOf(seed, index, ~uint64_t{0});
-  return {seed, index, photons, chooseBands(scene, spectrum, random)};
+  PhotonPass pass{seed, index, photons, chooseBands(scene, spectrum, random)};
+  pass.firstBand = random.next();
+  pass.firstPlace = random.next();
+  return pass;
 }
 
 PhotonTracer::PhotonTracer(const Scene& scene, const Boundaries& sceneBoundaries, const Lights& sceneLights,
@@ -60,7 +72,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const Boundaries& sceneBoundaries
 FluxLedger PhotonTracer::trace(const PhotonPass& pass, uint32_t first, uint32_t last,
                                PhotonVisitor& visitor) const {
   FluxLedger ledger;
-  for (uint32_t index = first; index < last; ++index) {
+  for (uint32_t place = first; place < last; ++place) {
+    const uint32_t index = pass.part + place * pass.parts;
     Random random = randomOf(pass.seed, pass.index, index);
     Photon photon = emit(pass, index, random);
     ledger.emitted += glm::dvec3(photon.emitted);
@@ -86,16 +99,18 @@ void PhotonTracer::follow(const PhotonPass& pass, Random& random, Photon& photon
 }
 
 PhotonTracer::Photon PhotonTracer::emit(const PhotonPass& pass, uint32_t index, Random& random) const {
-  const double choice = (double(index) + random.uniform()) / pass.photons;
-  const EmittedPhoton emitted = lights_.emit(choice, random.uniform());
+  const auto [choice, weight] = guide_.at((double(index) + random.uniform()) / pass.photons);
+  const EmittedPhoton emitted = lights_.emit(choice, stepped(pass.firstPlace, index, kStepOfPlaces));
   Photon photon;
-  photon.emitted = emitted.flux / float(pass.photons);
+  photon.index = index;
+  photon.emitted = emitted.flux * (weight / float(pass.photons));
   photon.path.direction = emitted.direction;
   photon.path.media = lights_.meetsCaster(emitted.light) ? boundaries_.mediaAround(emitted.origin)
                                                          : mediaOfLights_[emitted.light];
   photon.ray = {emitted.origin, emitted.direction};
   photon.comesFromAfar = lights_.comesFromAfar(emitted.light);
-  if (pass.bands.size() > 1) photon.band = uint32_t(random.uniform() * float(pass.bands.size()));
+  if (pass.bands.size() > 1)
+    photon.band = uint32_t(stepped(pass.firstBand, index, kStepOfBands) * float(pass.bands.size()));
   return photon;
 }
 
@@ -114,6 +129,7 @@ bool PhotonTracer::fly(Random& random, Photon& photon, PhotonVisitor& visitor, F
   segment.endsOnReceiver = isHit && !boundaries_.isCaster(hit);
   segment.isDispersed = path.isDispersed;
   segment.band = photon.band;
+  segment.photon = photon.index;
   segment.sample = random.uniform();
   visitor.segment(segment);
   path.throughput *= segment.transmittance(boundaries_, segment.length);
@@ -130,8 +146,8 @@ bool PhotonTracer::fly(Random& random, Photon& photon, PhotonVisitor& visitor, F
 bool PhotonTracer::meetCaster(const PhotonPass& pass, Choice choice, Random& random, Photon& photon,
                               FluxLedger& ledger) const {
   const vec3 arriving = photon.flux();
-  const bool goesOn =
-      boundaries_.send(photon.hit, pass.bands[photon.band], Carried::flux, choice, random, photon.path);
+  const bool goesOn = boundaries_.send(photon.hit, pass.bands[photon.band], Carried::flux, choice,
+                                       random.uniform(), photon.path);
   const vec3 leaving = photon.flux();
   const bool isSplit =
       paths_ == Paths::all && choice != Choice::random;  // the other part is a photon as well

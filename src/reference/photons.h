@@ -5,6 +5,7 @@
 
 #include "reference/boundary.h"
 #include "reference/lights.h"
+#include "reference/photon_guide.h"
 #include "reference/sampling.h"
 #include "trace/paths.h"
 
@@ -21,8 +22,9 @@ struct PhotonSegment {
   bool isInAir() const { return medium == kNone; }
   bool endsOnReceiver = false;
   bool isDispersed = false;
-  uint32_t band = 0;  // of the pass
-  float sample = 0;   // a random number in [0, 1) for the visitor
+  uint32_t band = 0;    // of the pass
+  uint32_t photon = 0;  // of the pass
+  float sample = 0;     // a random number in [0, 1) for the visitor
   // The part (0..1 per channel) of its flux that is left after `distance` (m).
   vec3 transmittance(const Boundaries& boundaries, float distance) const;
 };
@@ -46,12 +48,17 @@ struct FluxLedger {
   FluxLedger& operator+=(const FluxLedger& other);
 };
 
-// The settings of a pass. Each pass is an independent estimate.
+// The settings of a pass. Each pass is an independent estimate. It may be traced in parts: every `parts`-th
+// photon, from the one at `part`.
 struct PhotonPass {
-  uint64_t seed;
-  uint64_t index;
-  uint32_t photons;
+  uint64_t seed = 0;
+  uint64_t index = 0;
+  uint32_t photons = 0;  // of all parts
   std::vector<Band> bands;
+  uint32_t firstBand = 0;   // of the photon at 0, in 2^-32 of all bands
+  uint32_t firstPlace = 0;  // on a light with a size, of the photon at 0, in 2^-32 of its curve
+  uint32_t part = 0, parts = 1;
+  uint32_t photonsInPart() const { return (photons - part + parts - 1) / parts; }
 };
 
 PhotonPass photonPass(const Scene& scene, Spectrum spectrum, uint64_t seed, uint64_t index, uint32_t photons);
@@ -61,7 +68,10 @@ class PhotonTracer {
   // All must outlive this.
   PhotonTracer(const Scene& scene, const Boundaries& boundaries, const Lights& lights, Paths paths);
 
-  // Traces the photons `first` to `last` - 1 of a pass.
+  // From now on sends photons so; until then, evenly.
+  void guide(PhotonGuide by) { guide_ = std::move(by); }
+
+  // Traces the photons `first` to `last` - 1 of a pass's part.
   FluxLedger trace(const PhotonPass& pass, uint32_t first, uint32_t last, PhotonVisitor& visitor) const;
 
   // Whether no photon can meet a caster.
@@ -79,22 +89,24 @@ class PhotonTracer {
   const Boundaries& boundaries_;
   const Lights& lights_;
   Paths paths_;
+  PhotonGuide guide_;
   std::vector<MediumStack> mediaOfLights_;  // around the middle of each
 };
 
-// Traces a whole pass; each group of photons has its own copy of `visitor`. Returns the copies in the order
+// Traces a pass's part; each group of photons has its own copy of `visitor`. Returns the copies in the order
 // of the groups, so that results do not depend on the threads.
 template <class Visitor>
 std::vector<Visitor> tracePass(const PhotonTracer& tracer, const PhotonPass& pass, const Visitor& visitor,
                                FluxLedger& ledger) {
   constexpr uint32_t kPhotonsInGroup = 4096;
-  const uint32_t groups = tracer.isDark() ? 0 : (pass.photons + kPhotonsInGroup - 1) / kPhotonsInGroup;
+  const uint32_t groups =
+      tracer.isDark() ? 0 : (pass.photonsInPart() + kPhotonsInGroup - 1) / kPhotonsInGroup;
   std::vector<Visitor> visitors(groups, visitor);
   std::vector<FluxLedger> ledgers(groups);
   oneapi::tbb::parallel_for(0u, groups, [&](uint32_t group) {
     const uint32_t first = group * kPhotonsInGroup;
     ledgers[group] =
-        tracer.trace(pass, first, std::min(first + kPhotonsInGroup, pass.photons), visitors[group]);
+        tracer.trace(pass, first, std::min(first + kPhotonsInGroup, pass.photonsInPart()), visitors[group]);
   });
   for (const FluxLedger& part : ledgers) ledger += part;
   return visitors;

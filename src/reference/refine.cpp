@@ -26,7 +26,7 @@ double fractionDone(const StopRule& rule, uint32_t passes, double seconds, doubl
 }
 
 bool isDone(const StopRule& rule, uint32_t passes, double seconds, double noise) {
-  constexpr uint32_t kFewestPasses = 8;  // before their spread is believed
+  constexpr uint32_t kFewestPasses = 5;  // before their spread is believed
   return (rule.passes > 0 && passes >= rule.passes) || (rule.seconds > 0 && seconds >= rule.seconds) ||
          (rule.error > 0 && passes >= kFewestPasses && noise <= rule.error);
 }

@@ -20,6 +20,7 @@ struct ReferenceSettings {
   Spectrum spectrum = Spectrum::continuous;
   uint64_t seed = 1;
   uint32_t photons = 1u << 20;  // of a pass, at most 2^24
+  uint32_t pilots = 1u << 18;   // photons that find out where others are to be sent; 0: evenly
   SeenDirectly seenDirectly = SeenDirectly::splatted;
 };
 

@@ -139,7 +139,7 @@ vec3 ReferenceSensor::directAt(uvec2 texel, Random& random) const {
     point.medium = medium_;
     point.rounding = toleranceOf(boundaries_.rayScene());
     for (uint32_t light = 0; light < lights_.count(); ++light)
-      sum += directIlluminance(boundaries_, lights_, light, point, random);
+      sum += directIlluminance(boundaries_, lights_, light, point, random.uniform());
   }
   return sum / float(kShadowGrid * kShadowGrid);
 }

@@ -3,7 +3,7 @@
 namespace nephroid {
 namespace {
 
-constexpr uint32_t kDefaultPasses = 64;
+constexpr uint32_t kDefaultPasses = 16;
 constexpr double kMostPhotons = 1u << 24;
 constexpr double kLargestWhole = 9007199254740992.0;  // up to which doubles hold every whole number
 
@@ -13,7 +13,7 @@ std::span<const Setting> referenceSettings() {
   using Choices = ReferenceChoices;
   static constexpr Setting kSettings[] = {
       wholeSetting<&Choices::passes>(
-          "passes", 1, 1e9, "Stop the reference after so many passes; 64 where no reason to stop is given"),
+          "passes", 1, 1e9, "Stop the reference after so many passes; 16 where no reason to stop is given"),
       realSetting<&Choices::seconds>("seconds", 0.001, 1e9, "Stop it after so many seconds"),
       wholeSetting<&Choices::seed>("seed", 0, kLargestWhole, "The seed of its random numbers"),
       wholeSetting<&Choices::photons>("photons", 1, kMostPhotons, "Photons that it traces in a pass"),

@@ -20,7 +20,7 @@ struct ReferenceChoices {
   uint32_t passes = 0;  // stop after this many; 0: no limit
   double seconds = 0;   // stop after this time (s); 0: no limit
   uint64_t seed = 1;
-  uint32_t photons = 1u << 20;  // of a pass
+  uint32_t photons = 1u << 22;  // of a pass
   SpectrumChoice spectrum = SpectrumChoice::automatic;
 };
 
@@ -29,7 +29,7 @@ std::span<const Setting> referenceSettings();
 // The settings for an image or a sensor of `size` (pixels or texels).
 ReferenceSettings referenceSettingsOf(const ReferenceChoices& choices, Paths paths, uvec2 size);
 
-// The stop rule of these choices and of a relative standard error (0: no limit); 64 passes where there is no
+// The stop rule of these choices and of a relative standard error (0: no limit); 16 passes where there is no
 // limit at all.
 StopRule stopRuleOf(const ReferenceChoices& choices, double error);
 

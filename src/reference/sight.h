@@ -2,8 +2,8 @@
 #pragma once
 
 #include "reference/direct.h"
+#include "reference/draws.h"
 #include "reference/photon_map.h"
-#include "reference/sampling.h"
 
 namespace nephroid {
 
@@ -17,7 +17,16 @@ struct Seen {
   vec3 rest{0};
 };
 
-// The light of one pass.
+// What photons add to the picture, of each of some equal parts of a pass.
+struct PhotonWorths {
+  std::vector<double> squares;  // sums of the squares of luminances (nit)
+  uint32_t photonsInPart = 1;
+  void add(uint32_t photon, float luminance) {
+    squares[photon / photonsInPart] += double(luminance) * double(luminance);
+  }
+};
+
+// The light of one pass, or of a part of one.
 struct PassLight {
   std::vector<Band> bands;
   PhotonMap onSurfaces;
@@ -26,6 +35,7 @@ struct PassLight {
   float volumeRadius = 0;
   float largestRadius = 0;  // m
   bool isSplatted = false;  // light that is seen directly was splatted, so it must not be gathered again
+  PhotonWorths* worths = nullptr;  // to be added to, in one thread
 };
 
 class Sight {
@@ -33,8 +43,9 @@ class Sight {
   // All must outlive this.
   Sight(const Scene& scene, const Boundaries& boundaries, const Lights& lights);
 
-  // A sample of the luminance along a ray that begins inside `media`.
-  Seen look(const Ray& ray, const MediumStack& media, const PassLight& light, Random& random) const;
+  // A sample of the luminance along a ray that begins inside `media`. At the first glass the view goes on by
+  // both ways, reflected and transmitted, and further on by one of them, with the probability of its part.
+  Seen look(const Ray& ray, const MediumStack& media, const PassLight& light, Draws& draws) const;
 
  private:
   // The state of a view ray.
@@ -43,15 +54,21 @@ class Sight {
     Ray ray;
     float traveled = 0;  // m before the ray's origin
     uint32_t band = 0;
+    uint32_t encounters = 0;
+    uint32_t splits = 0;  // surfaces from which it went on by both ways
     vec3 weight(const PassLight& light) const;
   };
 
-  void lookAtReceiver(const View& view, const Hit& hit, const PassLight& light, Random& random,
+  void follow(View view, const PassLight& light, Draws& draws, Seen& seen) const;
+  bool splits(const Hit& hit, const PassLight& light, View& view, View& reflected) const;
+  bool goOn(const Hit& hit, const PassLight& light, Choice choice, float u, View& view) const;
+  void lookAtReceiver(const View& view, const Hit& hit, const PassLight& light, Draws& draws,
                       Seen& seen) const;
-  vec3 gather(const View& view, const Hit& hit, vec3 normal, const PassLight& light) const;
-  vec3 scattered(const View& view, float length, const PassLight& light, Random& random) const;
-  vec3 scatteredFromLight(const View& view, float length, uint32_t source, Random& random) const;
-  vec3 scatteredFromCasters(const View& view, float length, const PassLight& light, Random& random) const;
+  vec3 gather(const View& view, const Hit& hit, const LitPoint& point, vec3 reflected,
+              const PassLight& light) const;
+  vec3 scattered(const View& view, float length, const PassLight& light, Draws& draws) const;
+  vec3 scatteredFromLight(const View& view, float length, uint32_t source, Draws& draws) const;
+  vec3 scatteredFromCasters(const View& view, float length, const PassLight& light, Draws& draws) const;
 
   const Scene& scene_;
   const Boundaries& boundaries_;

@@ -290,7 +290,7 @@ TEST_F(SentOn, IsReflectedAsOftenAsFresnelSays) {
       WeightedHistogram choices(2);
       for (int i = 0; i < kSamples; ++i) {
         Path sent = path;
-        ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Choice::random, random, sent));
+        ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Choice::random, random.uniform(), sent));
         const bool isReflected = sent.direction.y * path.direction.y < 0;
         choices.add(isReflected);
         ASSERT_EQ(sent.throughput, vec3(1));  // nothing is split, and flux knows no index
@@ -307,10 +307,9 @@ TEST_F(SentOn, CarriesTheSquareOfTheIndexAsRadianceAlone) {
     arrive(20, fromInside);
     const double eta = fromInside ? 1.5 : 1 / 1.5;
     const double transmitted = 1 - double(fresnelReflectance(std::cos(glm::radians(20.0f)), float(eta)));
-    Random random(11);
     Path flux = path, radiance = path;
-    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Choice::transmitted, random, flux));
-    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::radiance, Choice::transmitted, random, radiance));
+    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Choice::transmitted, 0, flux));
+    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::radiance, Choice::transmitted, 0, radiance));
     EXPECT_NEAR(flux.throughput.y, transmitted, 1e-5);
     EXPECT_NEAR(radiance.throughput.y, transmitted * eta * eta, 1e-5);
   }
@@ -327,7 +326,7 @@ TEST_F(SentOn, ByAThinWallGoesStraightOnOrComesBack) {
   WeightedHistogram choices(2);
   for (int i = 0; i < kSamples; ++i) {
     Path sent = path;
-    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Choice::random, random, sent));
+    ASSERT_TRUE(boundaries().send(hit, Band{}, Carried::flux, Choice::random, random.uniform(), sent));
     const bool isReflected = sent.direction.y > 0;
     choices.add(isReflected);
     ASSERT_EQ(sent.throughput, isReflected ? vec3(1) : pane.color);
