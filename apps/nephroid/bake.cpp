@@ -46,6 +46,8 @@ void runBake(const BakeOptions& options) {
   if (options.scene.empty()) throw InputError("bake: name a SCENE, or parts to --merge");
   Progress progress(progressDisplay(options.isQuiet));
   const Scene scene = loadScene(options.scene);
+  Stats stats;
+  warnOf(scene, stats);
   const TechniqueBake& bake = techniqueNamed(options.technique.technique).bake;
   if (!bake.write) return bakeTables(options, scene, progress);
   BakeRequest request = options.request;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "lights/light_intensity.h"
@@ -9,6 +10,7 @@
 #include "report/missing_light.h"
 #include "scene/checks.h"
 #include "scene/framing.h"
+#include "trace/ray_scene.h"
 
 namespace nephroid {
 namespace {
@@ -113,6 +115,24 @@ CasterReport judge(const Scene& scene, uint32_t index, bool hasReceiver) {
   return report;
 }
 
+std::vector<TouchingPair> touchingPairs(const Scene& scene) {
+  const RayScene rays(scene);
+  const Contacts& contacts = rays.contacts();
+  std::map<std::pair<uint32_t, uint32_t>, TouchingPair> pairs;
+  for (uint32_t object = 0; object < contacts.setOf.size(); ++object)
+    for (uint32_t triangle = 0; triangle < contacts.setOf[object].size(); ++triangle)
+      for (const uint32_t other : contacts.around(object, triangle)) {
+        const auto [low, high] = std::minmax(object, other);
+        TouchingPair& pair = pairs[{low, high}];
+        pair.objects[0] = low;
+        pair.objects[1] = high;
+        ++pair.triangles[object == high];
+      }
+  std::vector<TouchingPair> all;
+  for (const auto& [key, pair] : pairs) all.push_back(pair);
+  return all;
+}
+
 void warnAboutScene(const Scene& scene, SceneReport& report) {
   auto& warnings = report.warnings;
   warnings = meshWarnings(scene);
@@ -181,6 +201,7 @@ SceneReport diagnose(const Scene& scene) {
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {
     if (scene.isCaster(scene.objects[i])) report.casterReports.push_back(judge(scene, i, hasReceiver));
   }
+  report.touching = touchingPairs(scene);
   warnAboutScene(scene, report);
   return report;
 }
@@ -214,6 +235,11 @@ std::string describe(const Scene& scene, const SceneReport& report) {
   if (hindered > 0) {
     text << "  " << hindered << " of " << counted(report.casters, "caster", "casters")
          << " will make no caustics, or poor ones\n";
+  }
+  for (const TouchingPair& pair : report.touching) {
+    text << "  " << scene.objects[pair.objects[0]].name << " and " << scene.objects[pair.objects[1]].name
+         << " touch (" << pair.triangles[0] << " and " << counted(pair.triangles[1], "triangle", "triangles")
+         << "): one boundary for light\n";
   }
   for (const std::string& warning : report.warnings) text << "  warning: " << warning << "\n";
   return text.str();

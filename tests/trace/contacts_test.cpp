@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "optics/refraction.h"
+#include "report/diagnose.h"
 #include "support/reference_scenes.h"
 #include "techniques/adaptive_beams/sensor_light.h"
 
@@ -117,6 +118,17 @@ TEST(Contacts, AnObjectThatStandsTwiceCountsOnce) {
   Scene scene = underSun();
   for (int i = 0; i < 2; ++i) add(scene, makeBox({1, 0.1f, 1}), glass(1.5f), {0, 0.5f, 0});
   expectLux(scene, through({1, 1.5f, 1}));
+}
+
+TEST(Contacts, AreTold) {
+  Scene scene = underSun();
+  for (const float y : {0.4f, 0.5f, 0.7f}) add(scene, makeBox({1, 0.1f, 1}), glass(1.5f), {0, y, 0});
+  for (Object& object : scene.objects) object.name = "box " + std::to_string(&object - scene.objects.data());
+  const SceneReport report = diagnose(scene);
+  ASSERT_EQ(report.touching.size(), 1u);
+  EXPECT_EQ(report.touching[0].objects[0], 1u);
+  EXPECT_EQ(report.touching[0].objects[1], 2u);
+  EXPECT_NE(describe(scene, report).find("box 1 and box 2 touch"), std::string::npos);
 }
 
 // From inside the glass too; nothing is reflected where it meets the floor.
