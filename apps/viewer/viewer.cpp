@@ -26,6 +26,12 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Samples are gathered after a picture was drawn.
+bool areDrawnAlike(PictureSettings a, const PictureSettings& b) {
+  a.samples = b.samples;
+  return a == b;
+}
+
 // A run that is measured does not depend on how a window was left.
 ViewerPreferences preferencesFor(const ViewerOptions& options) {
   ViewerPreferences preferences;
@@ -83,7 +89,7 @@ void Viewer::prepareWhatIsWanted() {
   if (failed_ && isSameScene(failed_->first, wanted) && failed_->second == state_.settings) return;
   failed_.reset();
   const Stage* stage = graphics_->stage.get();
-  if (stage && stage->settings() == state_.settings &&
+  if (stage && areDrawnAlike(stage->settings(), state_.settings) &&
       !needsPreparation(stateOf(stage->scene()), wanted, state_.settings.technique))
     return;
   opensScene_ = false;
@@ -138,7 +144,7 @@ void Viewer::adopt(std::unique_ptr<Prepared> prepared) {
 }
 
 double Viewer::waitSeconds() const {
-  if (endsByItself(options_) || framesToGo_ > 0 || state_.isPlaying) return 0;
+  if (endsByItself(options_) || framesToGo_ > 0 || state_.isPlaying || isGathering()) return 0;
   const bool isBusy = preparation_ || referenceWorker_.isRunning() || !tasks_.empty() || shaders_.valid();
   return isBusy ? kBusyWait : kIdleWait;
 }
@@ -232,8 +238,12 @@ uvec2 Viewer::pictureSize() const {
 bool Viewer::drawPicture() {
   if (!graphics_->stage || !state_.isOpen) return false;
   Stage& stage = *graphics_->stage;
-  const Drawn wanted{stateOf(state_.scene), state_.scene.time, pictureSize(),
-                     stage.settings().technique.transport.paths, stageCount_};
+  const Drawn wanted{stateOf(state_.scene),
+                     state_.scene.time,
+                     pictureSize(),
+                     stage.settings().technique.transport.paths,
+                     state_.settings.samples.count,
+                     stageCount_};
   if (wanted == drawn_ && options_.frames == 0) return false;
   if (wanted.size != stage.size()) stage.resize(wanted.size);
   const Clock::time_point start = Clock::now();
@@ -242,9 +252,26 @@ bool Viewer::drawPicture() {
   state_.stats = stage.stats();
   state_.outputs = stage.renderer().outputs();
   state_.memoryBytes = graphics_->device().memoryBytes();
+  state_.gathered = 0;
   drawn_ = wanted;
   lastChange_ = Clock::now();
   return true;
+}
+
+// Whether the picture is at rest, and has not all samples yet. While a pass's output is shown it keeps to the
+// pixels' middles.
+bool Viewer::isGathering() const {
+  const bool isAtRest =
+      graphics_->stage && state_.isOpen && drawn_.stage == stageCount_ && options_.frames == 0;
+  return isAtRest && drawn_.samples > 1 && state_.shown != Shown::output &&
+         graphics_->stage->gathered() < drawn_.samples;
+}
+
+// One sample in each step, so that what a hand does next waits for no more than that.
+void Viewer::gatherPicture() {
+  graphics_->stage->gather(drawn_.samples);
+  state_.gathered = graphics_->stage->gathered();
+  framesToGo_ = std::max(framesToGo_, 1);
 }
 
 void Viewer::layOut() {
@@ -278,6 +305,7 @@ void Viewer::showFrame() {
   keepHistoryAtRest();
   showTitle();
   const bool isNew = drawPicture();
+  if (!isNew && isGathering()) gatherPicture();
   refineReference();
   chooseShownImage();
   updateLines();
@@ -345,7 +373,7 @@ void Viewer::writeShown() {
 }
 
 bool Viewer::isDone() const {
-  const bool isSettled = options_.picture.empty() || shownFrames_ > kFramesToSettle;
+  const bool isSettled = options_.picture.empty() || (shownFrames_ > kFramesToSettle && !isGathering());
   return endsByItself(options_) && frameMilliseconds_.size() >= options_.frames && isSettled;
 }
 

@@ -10,9 +10,16 @@
 
 namespace nephroid {
 
+// With the samples of each pixel that a picture at rest has at last.
+inline PictureSettings viewerSettings() {
+  PictureSettings settings;
+  settings.samples.count = 64;
+  return settings;
+}
+
 struct ViewerOptions {
   std::filesystem::path scene;  // empty: none yet
-  PictureSettings settings;
+  PictureSettings settings = viewerSettings();
   uvec2 size{0};       // of the picture, pixels; 0: the size of the last use
   double time = 0;     // s
   std::string device;  // as gpu::DeviceOptions::device

@@ -11,6 +11,7 @@
 
 #include "formats/save_scene.h"
 #include "gpu/reloadable_shader.h"
+#include "gpu/transfer.h"
 #include "graphics.h"
 #include "key_bindings.h"
 #include "pointer.h"
@@ -34,7 +35,9 @@ class Viewer {
   ViewerState& state() { return state_; }
   DesktopWindow& window() { return window_; }
   gpu::Device& device() { return graphics_->device(); }
-  ByteImage picture() { return graphics_->stage->renderer().picture(); }  // needs a scene that has been drawn
+  // Of a scene that has been drawn: as it was rendered, and as it is shown, with smoothed edges.
+  ByteImage picture() { return graphics_->stage->renderer().picture(); }
+  ByteImage shownPicture() { return gpu::downloadPicture(device(), graphics_->stage->picture()); }
 
   // viewer_files.cpp
   void open(const std::filesystem::path& file);  // asks first if changes are not saved
@@ -71,6 +74,8 @@ class Viewer {
   void keepHistoryAtRest();
   uvec2 pictureSize() const;
   bool drawPicture();  // false where nothing has changed
+  bool isGathering() const;
+  void gatherPicture();
   void layOut();
   void showTitle();
   void showFrame();
@@ -112,6 +117,7 @@ class Viewer {
     double time = 0;
     uvec2 size{0};
     Paths paths = Paths::transmission;
+    uint32_t samples = 1;
     uint32_t stage = 0;  // number of the stage, counted from the start
     bool operator==(const Drawn&) const = default;
   };

@@ -71,7 +71,7 @@ void Viewer::refineReference() {
     comparedOf_.reset();
   }
   if (!referenceWorker_.isRunning()) return;
-  if (state_.shown == Shown::error && comparedOf_ != drawn_) {
+  if (state_.shown == Shown::error && comparedOf_ != drawn_ && !isGathering()) {
     referenceWorker_.compare(graphics_->stage->renderer().layers());
     comparedOf_ = drawn_;
   }
@@ -96,8 +96,8 @@ void Viewer::showOutput() {
 }
 
 void Viewer::chooseShownImage() {
-  if (!graphics_->stage) return;
-  picture_ = {&graphics_->stage->renderer().images().picture, false};
+  if (!graphics_->stage || drawn_.stage == 0) return;
+  picture_ = {&graphics_->stage->picture(), false};
   const auto& reference = state_.reference;
   const bool isError = !state_.isReferenceHeld && state_.shown == Shown::error;
   if (reference && reference->passes > 0 && (state_.isReferenceHeld || (isError && reference->error))) {

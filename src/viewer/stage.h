@@ -7,6 +7,7 @@
 #include "render/frame.h"
 #include "techniques/technique.h"
 #include "viewer/preparation.h"
+#include "viewer/show/edge_smoothing.h"
 
 namespace nephroid {
 
@@ -15,8 +16,14 @@ class Stage {
   // The device must outlive it. `keepsLight`: as in RenderSettings.
   Stage(gpu::Device& device, std::unique_ptr<Prepared> prepared, uvec2 size, bool keepsLight);
 
-  // As Renderer::render. `scene` must have the same objects, meshes and lights as the prepared one.
-  std::vector<PassTime> render(const Scene& scene) { return renderer_->render(scene); }
+  // As Renderer::render, with one sample of each pixel and then smoothed edges. `scene` must have the same
+  // objects, meshes and lights as the prepared one.
+  std::vector<PassTime> render(const Scene& scene);
+  // As Renderer::gather. Until there are enough samples for smooth edges, the picture stays the one of
+  // `render`.
+  std::vector<PassTime> gather(uint32_t samples);
+  uint32_t gathered() const { return renderer_->gathered(); }
+  const gpu::Image& picture() const { return *picture_; }  // that is shown; not before `render`
   void resize(uvec2 size) { renderer_->resize(size); }
   uvec2 size() const { return renderer_->size(); }
   // Creates everything on the device again, with the present shaders. Where that fails it throws, and nothing
@@ -43,6 +50,8 @@ class Stage {
   Stats stats_;
   std::unique_ptr<Technique> technique_;
   std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<EdgeSmoothing> edges_;
+  const gpu::Image* picture_ = nullptr;
 };
 
 }  // namespace nephroid
