@@ -19,9 +19,9 @@ class EdgeSmoothing {
 
  private:
   gpu::Device& device_;
-  gpu::Program program_;
+  gpu::Program marking_, smoothing_;
   gpu::Sampler sampler_;
-  gpu::Image smoothed_;
+  gpu::Image smoothed_, marks_;
 };
 
 }  // namespace nephroid

@@ -1,22 +1,17 @@
-// Fast approximate anti-aliasing (Lottes, FXAA 3.11, quality): where the luma of a pixel differs from its
-// neighbors', the picture is read a part of a pixel across the edge there, as far as the edge's slope has
-// come between its two ends.
+// Fast approximate anti-aliasing (Lottes, FXAA 3.11, quality) of the pixels that are marked as edges: the
+// picture is read a part of a pixel across the edge there, as far as the edge's slope has come between its
+// two ends.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "viewer/show/edge_luma.glsl.h"
 
-uniform sampler2D picture;  // sRGB
 layout(location = 0) out vec4 smoothed;
 
-const float kLeastContrast = 0.0312;  // in the dark
-const float kLeastRelative = 0.125;   // of the brightest neighbor
-const float kMostOfSpeck = 0.75;      // how far what is smaller than a pixel is softened
+const float kMostOfSpeck = 0.75;  // how far what is smaller than a pixel is softened
 const float kSteps[8] = float[](1, 1.5, 2, 2, 2, 2, 4, 8);  // pixels, along the edge
 
 vec2 texel;
 
-float lumaAt(vec2 place) {
-  return dot(textureLod(picture, place, 0).rgb, vec3(0.299, 0.587, 0.114));
-}
 float lumaBeside(vec2 place, vec2 pixels) {
   return lumaAt(place + pixels * texel);
 }
@@ -41,14 +36,10 @@ void main() {
   const float left = lumaBeside(place, vec2(-1, 0)), right = lumaBeside(place, vec2(1, 0));
   const float most = max(max(max(up, down), max(left, right)), here);
   const float least = min(min(min(up, down), min(left, right)), here);
-  smoothed = vec4(textureLod(picture, place, 0).rgb, 1);
-  const float contrast = most - least;
-  if (contrast < max(kLeastContrast, kLeastRelative * most)) return;
-
   const float upLeft = lumaBeside(place, vec2(-1, -1)), upRight = lumaBeside(place, vec2(1, -1));
   const float downLeft = lumaBeside(place, vec2(-1, 1)), downRight = lumaBeside(place, vec2(1, 1));
   const float around = (2 * (up + down + left + right) + upLeft + upRight + downLeft + downRight) / 12;
-  const float speck = smoothstep(0, 1, clamp(abs(around - here) / contrast, 0, 1));
+  const float speck = smoothstep(0, 1, clamp(abs(around - here) / (most - least), 0, 1));
 
   const float acrossRows = abs(upLeft + downLeft - 2 * left) + 2 * abs(up + down - 2 * here) +
                            abs(upRight + downRight - 2 * right);
@@ -69,5 +60,5 @@ void main() {
   const bool turnsAway = (nearer.y < 0) != (here < middle);
   const float slope = turnsAway ? 0.5 - nearer.x / (back.x + ahead.x) : 0;
   const float shift = max(slope, kMostOfSpeck * speck * speck);
-  smoothed.rgb = textureLod(picture, place + shift * across * texel, 0).rgb;
+  smoothed = vec4(textureLod(picture, place + shift * across * texel, 0).rgb, 1);
 }
