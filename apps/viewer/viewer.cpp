@@ -245,6 +245,7 @@ bool Viewer::drawPicture() {
                      state_.settings.samples.count,
                      stageCount_};
   if (wanted == drawn_ && options_.frames == 0) return false;
+  if (drawn_.stage == stageCount_) writeWantedPictures();
   if (wanted.size != stage.size()) stage.resize(wanted.size);
   const Clock::time_point start = Clock::now();
   const std::vector<PassTime> passes = stage.render(state_.scene);
@@ -306,6 +307,7 @@ void Viewer::showFrame() {
   showTitle();
   const bool isNew = drawPicture();
   if (!isNew && isGathering()) gatherPicture();
+  if (!isGathering()) writeWantedPictures();
   refineReference();
   chooseShownImage();
   updateLines();

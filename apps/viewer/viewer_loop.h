@@ -46,9 +46,9 @@ class Viewer {
   bool isSaved() const;
   void undo();
   void redo();
-  void takePicture(const char* extension);
-  void recordVideo();  // starts a video, or ends it
-  void close();        // asks before changes are lost
+  void takePicture(const char* extension);  // when its samples are gathered, or before it changes
+  void recordVideo();                       // starts a video, or ends it
+  void close();                             // asks before changes are lost
   // viewer_time.cpp
   void setTime(double seconds);
   void dropStone();  // into the water under the pointer
@@ -94,6 +94,7 @@ class Viewer {
   void answerQuestion();
   void finishTasks();
   void addToVideo();
+  void writeWantedPictures();
   std::filesystem::path fileToSave() const;
   SavedScene sceneToSave() const;
   Scene sceneAsLoaded() const;
@@ -149,6 +150,7 @@ class Viewer {
   std::filesystem::file_time_type fileTime_{}, lastSeenTime_{};
   Clock::time_point lastWatch_{};
   std::vector<std::future<std::string>> tasks_;  // work on other threads; each returns a message
+  std::vector<std::string> wantedPictures_;      // their extensions
   std::unique_ptr<VideoPipe> video_;
   std::future<gpu::ShaderChanges> shaders_;  // being compiled
 

@@ -8,7 +8,7 @@ namespace nephroid {
 inline constexpr double kFilterRadius = 1.5;  // pixels
 
 // The variance (pixels squared) of a place along an axis that is chosen by the filter.
-inline constexpr double kFilterVariance = 0.172652;
+inline constexpr double kFilterVariance = 0.17265848;
 
 // The part of the filter's weight below `offset` (pixels from the pixel's middle, along an axis).
 double filterWeightBelow(double offset);
