@@ -28,6 +28,7 @@ struct ViewerOptions {
   std::vector<std::string> shown;  // in place of the picture, or over it: of viewNames()
   // Write what the window shows to this PNG, without panels, and end; empty: do not.
   std::filesystem::path picture;
+  bool waitsForFrames = false;  // however long one takes; otherwise the window goes on beside it
   std::filesystem::path stats;  // where to write the figures of those frames; empty: nowhere
 };
 

@@ -24,6 +24,10 @@
 
 namespace nephroid {
 
+inline double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 class Viewer {
  public:
   explicit Viewer(const ViewerOptions& options);
@@ -58,6 +62,37 @@ class Viewer {
   void reloadShaders();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  // Everything that the picture on the screen depends on.
+  struct Drawn {
+    SceneState state;
+    double time = 0;
+    uvec2 size{0};
+    Paths paths = Paths::transmission;
+    uint32_t samples = 1;
+    uint32_t stage = 0;  // number of the stage, counted from the start
+    bool operator==(const Drawn&) const = default;
+  };
+
+  // A frame that is being drawn on another thread.
+  struct Drawing {
+    Drawing(Drawn wanted, std::shared_ptr<Prepared> from, bool ofNewStage)
+        : of(std::move(wanted)), prepared(std::move(from)), isOfNewStage(ofNewStage) {}
+    ~Drawing();  // cancels it, and waits for its end
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+    Drawn of;
+    std::shared_ptr<Prepared> prepared;  // with the progress of the work
+    bool isOfNewStage;
+    bool isLate = false;  // the window no longer waits for it
+    Clock::time_point start = Clock::now();
+    std::unique_ptr<Stage> made;  // the new stage
+    std::vector<PassTime> passes;
+    std::future<void> work;
+  };
+
   // viewer.cpp
   Viewer(const ViewerOptions& options, const ViewerPreferences& preferences);
   float panelWidth() const;  // pixels
@@ -65,7 +100,6 @@ class Viewer {
   void prepare(std::function<Scene()> load);
   void prepareWhatIsWanted();
   void takePrepared();
-  void adopt(std::unique_ptr<Prepared> prepared);
   double waitSeconds() const;
   void receive(const Input& input);
   void moveByKeys(double seconds);
@@ -73,9 +107,6 @@ class Viewer {
   void keepHistory();
   void keepHistoryAtRest();
   uvec2 pictureSize() const;
-  bool drawPicture();  // false where nothing has changed
-  bool isGathering() const;
-  void gatherPicture();
   void layOut();
   void showTitle();
   void showFrame();
@@ -83,6 +114,19 @@ class Viewer {
   std::string rescued() const;
   void writeStatsOfFrames() const;
   bool isDone() const;  // what a run without a user is for
+  // viewer_drawing.cpp
+  Drawn wantedOf(const Scene& scene, const PictureSettings& drawnWith, uint32_t stage) const;
+  void beginStage(std::unique_ptr<Prepared> prepared);
+  void beginFrame();
+  bool isStageBusy() const;  // nothing of the stage but its picture may be used
+  bool drawPicture();
+  bool takeDrawing();
+  void adopt(Drawing& done);
+  void keepStage();
+  void failToPrepare(const std::string& why);
+  void watchDrawing();
+  bool isGathering() const;
+  void gatherPicture();
   // viewer_keys.cpp
   void press(const KeyPress& key);
   // viewer_files.cpp
@@ -112,20 +156,8 @@ class Viewer {
   // viewer_shaders.cpp
   void useShaders();
 
-  // Everything that the picture on the screen depends on.
-  struct Drawn {
-    SceneState state;
-    double time = 0;
-    uvec2 size{0};
-    Paths paths = Paths::transmission;
-    uint32_t samples = 1;
-    uint32_t stage = 0;  // number of the stage, counted from the start
-    bool operator==(const Drawn&) const = default;
-  };
   // Whether the two show the same, apart from how they were drawn: then they have the same reference.
   static bool seeTheSame(Drawn a, const Drawn& b);
-
-  using Clock = std::chrono::steady_clock;
 
   const ViewerOptions options_;
   DesktopWindow window_;
@@ -142,7 +174,8 @@ class Viewer {
   std::optional<std::pair<SceneState, PictureSettings>> failed_;  // the state whose preparation failed
   Clock::time_point lastLoss_{};                                  // when the device was last lost
   Clock::time_point preparationStart_;
-  double prepareMilliseconds_ = 0;
+  double preparedMilliseconds_ = 0;  // of the last preparation
+  double prepareMilliseconds_ = 0;   // of that of the stage
 
   std::string text_;  // of the scene's file, as it was last saved; empty for glTF
   WaveRuns waves_;    // at the time that is shown
@@ -165,6 +198,8 @@ class Viewer {
   GuiImage picture_;
   uint32_t stageCount_ = 0;
   Drawn drawn_;
+  std::optional<Drawn> canceled_;     // whose drawing the user has canceled
+  std::unique_ptr<Drawing> drawing_;  // null: none
   bool isFlightHeld_ = false;
   Clock::time_point lastCameraStep_{};  // when the wheel or a key last moved the camera
   int framesToGo_ = 0;                  // frames still to draw before the window waits for input

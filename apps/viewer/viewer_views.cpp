@@ -63,7 +63,7 @@ void Viewer::refineReference() {
     referenceOf_.reset();
     state_.reference.reset();
   }
-  if (!graphics_->stage || !state_.isOpen || drawn_.stage == 0) return;
+  if (!graphics_->stage || !state_.isOpen || drawn_.stage == 0 || isStageBusy()) return;
   const double atRest = std::chrono::duration<double>(Clock::now() - lastChange_).count();
   if (isWanted && !isThat && atRest >= kSecondsAtRest) {
     referenceWorker_.start(state_.scene, referenceSettingsFor(drawn_.paths, drawn_.size));
@@ -96,7 +96,7 @@ void Viewer::showOutput() {
 }
 
 void Viewer::chooseShownImage() {
-  if (!graphics_->stage || drawn_.stage == 0) return;
+  if (!graphics_->stage || isStageBusy()) return;
   picture_ = {&graphics_->stage->picture(), false};
   const auto& reference = state_.reference;
   const bool isError = !state_.isReferenceHeld && state_.shown == Shown::error;
@@ -124,6 +124,7 @@ void Viewer::addMeshLines() {
 }
 
 void Viewer::updateLines() {
+  if (isStageBusy()) return;
   if (!graphics_->stage || std::ranges::count(state_.overlays, true) == 0) {
     lines_.clear();
     linesOf_.reset();

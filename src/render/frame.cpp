@@ -120,6 +120,16 @@ void Renderer::resize(uvec2 size) {
 }
 
 std::vector<PassTime> Renderer::render(const Scene& scene) {
+  try {
+    return draw(scene);
+  } catch (...) {
+    lastScene_ = {};
+    seenAt_.reset();
+    throw;
+  }
+}
+
+std::vector<PassTime> Renderer::draw(const Scene& scene) {
   std::vector<PassTime> passes;
   onHost(passes, "placement", [&] { place(scene); });
   const Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.traits().followsCamera);

@@ -38,7 +38,8 @@ class Renderer {
 
   // Draws a whole frame, with as many samples of each pixel as the settings say. The surfaces that the camera
   // sees are kept from the last frame where the camera and all objects have not moved. Returns the times of
-  // the passes, on the host and on the device, in the order in which they ran.
+  // the passes, on the host and on the device, in the order in which they ran. Where it throws, as where
+  // the technique's work is canceled, the picture stays as it was and the next frame is made anew.
   std::vector<PassTime> render(const Scene& scene);
 
   // Draws one more of `samples` samples of the last frame, and the picture and the layers of those that were
@@ -69,6 +70,7 @@ class Renderer {
   const Shafts& shafts() const { return shafts_; }
 
  private:
+  std::vector<PassTime> draw(const Scene& scene);
   void place(const Scene& scene);
   void look(vec2 at);
   void drawSample(vec2 at, Remade remade, std::vector<PassTime>& passes);

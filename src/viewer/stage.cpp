@@ -11,16 +11,18 @@ constexpr uint32_t kEnoughSamples = 8;  // for edges as smooth as smoothing make
 
 }  // namespace
 
-Stage::Stage(gpu::Device& device, std::unique_ptr<Prepared> prepared, uvec2 size, bool keepsLight)
+Stage::Stage(gpu::Device& device, std::shared_ptr<Prepared> prepared, uvec2 size, bool keepsLight)
     : device_(device),
       prepared_(std::move(prepared)),
       keepsLight_(keepsLight),
       technique_(newTechnique()),
       renderer_(newRenderer(*technique_, size)),
-      edges_(std::make_unique<EdgeSmoothing>(device)) {}
+      edges_(std::make_unique<EdgeSmoothing>(device, size)),
+      picture_(&edges_->smoothed()) {}
 
 std::unique_ptr<Technique> Stage::newTechnique() {
-  return makeTechnique({device_, prepared_->settings.technique, *prepared_->transport, stats_});
+  return makeTechnique({device_, prepared_->settings.technique, *prepared_->transport, stats_, Casters::all,
+                        &prepared_->progress});
 }
 
 std::unique_ptr<Renderer> Stage::newRenderer(Technique& technique, uvec2 size) const {
@@ -32,16 +34,23 @@ std::unique_ptr<Renderer> Stage::newRenderer(Technique& technique, uvec2 size) c
 
 void Stage::remake() {
   std::unique_ptr<Technique> technique = newTechnique();
-  auto edges = std::make_unique<EdgeSmoothing>(device_);
+  auto edges = std::make_unique<EdgeSmoothing>(device_, size());
   renderer_ = newRenderer(*technique, size());
   edges_ = std::move(edges);
-  picture_ = nullptr;
+  picture_ = &edges_->smoothed();
   technique_ = std::move(technique);
+}
+
+void Stage::resize(uvec2 size) {
+  renderer_->resize(size);
+  edges_->resize(size);
+  picture_ = &edges_->smoothed();
 }
 
 std::vector<PassTime> Stage::render(const Scene& scene) {
   std::vector<PassTime> passes = renderer_->render(scene);
-  picture_ = &edges_->smooth(renderer_->images().picture, passes);
+  edges_->smooth(renderer_->images().picture, passes);
+  picture_ = &edges_->smoothed();
   return passes;
 }
 

@@ -22,23 +22,26 @@ gpu::Program edgeProgram(gpu::Device& device, const char* name, std::span<const 
 
 }  // namespace
 
-EdgeSmoothing::EdgeSmoothing(gpu::Device& device)
+EdgeSmoothing::EdgeSmoothing(gpu::Device& device, uvec2 size)
     : device_(device),
       marking_(edgeProgram(device, "mark edges", shaders::viewer_show_mark_edges_frag, VK_COMPARE_OP_ALWAYS,
                            true)),
       smoothing_(edgeProgram(device, "smooth edges", shaders::viewer_show_smooth_edges_frag,
                              VK_COMPARE_OP_LESS, false)),
-      sampler_(gpu::createSampler(device)) {}
+      sampler_(gpu::createSampler(device)) {
+  resize(size);
+}
 
-const gpu::Image& EdgeSmoothing::smooth(const gpu::Image& picture, std::vector<PassTime>& passes) {
-  const gpu::ImageOptions& options = picture.options();
-  if (!smoothed_ || smoothed_.width() != options.width || smoothed_.height() != options.height) {
-    smoothed_ =
-        gpu::createImage(device_, "smoothed picture",
-                         {.format = kSmoothedFormat, .width = options.width, .height = options.height});
-    marks_ = gpu::createImage(device_, "marks of edges",
-                              {.format = kMarkFormat, .width = options.width, .height = options.height});
-  }
+void EdgeSmoothing::resize(uvec2 size) {
+  const auto image = [&](const char* name, VkFormat format) {
+    return gpu::createImage(device_, name, {.format = format, .width = size.x, .height = size.y});
+  };
+  smoothed_ = image("smoothed picture", kSmoothedFormat);
+  marks_ = image("marks of edges", kMarkFormat);
+  device_.submitAndWait([&](gpu::CommandList& commands) { commands.clear(smoothed_, vec4(0, 0, 0, 1)); });
+}
+
+void EdgeSmoothing::smooth(const gpu::Image& picture, std::vector<PassTime>& passes) {
   const auto draw = [&](gpu::CommandList& commands, const gpu::Program& program) {
     commands.render(
         {.colors = {{&smoothed_, 0, std::nullopt}}, .depth = gpu::DepthAttachment{&marks_, 0, std::nullopt}},
@@ -54,7 +57,6 @@ const gpu::Image& EdgeSmoothing::smooth(const gpu::Image& picture, std::vector<P
     });
   });
   passes.insert(passes.end(), times.begin(), times.end());
-  return smoothed_;
 }
 
 }  // namespace nephroid

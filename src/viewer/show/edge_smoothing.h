@@ -10,12 +10,15 @@ namespace nephroid {
 // Fast approximate anti-aliasing (Lottes, FXAA 3.11, quality).
 class EdgeSmoothing {
  public:
-  // The device outlives it.
-  explicit EdgeSmoothing(gpu::Device& device);
+  // The device outlives it. `size`: of the pictures, pixels.
+  EdgeSmoothing(gpu::Device& device, uvec2 size);
 
-  // Makes a smoothed copy of `picture` (rgba8, sRGB). It is valid until the next call. Adds the time of the
-  // pass.
-  const gpu::Image& smooth(const gpu::Image& picture, std::vector<PassTime>& passes);
+  // Sets another size; the smoothed picture is black then.
+  void resize(uvec2 size);
+
+  // Makes the smoothed copy of `picture` (rgba8, sRGB). Adds the time of the pass.
+  void smooth(const gpu::Image& picture, std::vector<PassTime>& passes);
+  const gpu::Image& smoothed() const { return smoothed_; }
 
  private:
   gpu::Device& device_;
