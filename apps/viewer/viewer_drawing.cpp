@@ -74,8 +74,13 @@ bool Viewer::takeDrawing() {
   try {
     done->work.get();
   } catch (const Interrupted&) {
-    done->isOfNewStage ? keepStage() : tell(state_, "Canceled: the picture stays as it was");
-    canceled_ = done->of;
+    if (done->isOfNewStage) {
+      keepStage();
+    } else {
+      tell(state_, "Canceled: the picture stays as it was");
+      canceled_ = done->of;
+      drawn_.samples = 0;  // the stage is no longer that of the picture
+    }
     return false;
   } catch (const gpu::DeviceLost&) {
     throw;
