@@ -27,7 +27,7 @@ number() { grep -A3 "\"$2\"" "$1" | grep -o '[0-9.]*[0-9]\(e-[0-9]*\)\?,\?$' | h
 {
   echo "# The scenes of papers 1 and 2"
   echo
-  echo "Left: \`nephroid render\` with its default technique. Right: the reference after $seconds s on this machine, by the same paths"
+  echo "Left: the technique of papers 1 and 2, with 16 samples of each pixel. Right: the reference after $seconds s on this machine, by the same paths"
   echo "(\`--paths transmission\`). LDR-FLIP is the mean difference between the two to someone who flips between them, 0 to 1; what"
   echo "the reference's noise adds to it is in it. Made by \`scripts/gallery.sh $seconds\`."
 } >"$work/README.md"

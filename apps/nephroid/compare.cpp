@@ -50,11 +50,17 @@ Stats statsOf(const PictureSettings& settings, const gpu::Device& device) {
 TechniqueResult drawTechnique(const CompareJob& job, const std::string& technique) {
   const PictureSettings settings = settingsOf(job.options, technique);
   TechniqueResult result{{}, statsOf(settings, job.device), imageAttributes(settings, "nit")};
-  const FrameRequest request{job.options.scene, job.options.time,   settings,
+  // Techniques are timed by frames of one sample, as a window draws them while something moves.
+  PictureSettings timed = settings;
+  timed.samples.count = 1;
+  const FrameRequest request{job.options.scene, job.options.time,   timed,
                              job.options.size,  job.options.repeat, technique};
-  addMedianFrame(drawFrame(request, job.device, job.progress, result.stats,
-                           [&](Renderer& renderer) { result.image = renderer.layers(); }),
-                 result.stats);
+  const uint32_t samples = settings.samples.count;
+  const auto draw = [&](Renderer& renderer) {
+    while (samples > 1 && renderer.gathered() < samples) renderer.gather(samples);
+    result.image = renderer.layers();
+  };
+  addMedianFrame(drawFrame(request, job.device, job.progress, result.stats, draw), result.stats);
   return result;
 }
 

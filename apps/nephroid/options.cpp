@@ -115,7 +115,7 @@ void addRepeat(CLI::App& command, uint32_t& repeat) {
   command
       .add_option("--repeat", repeat,
                   "Draw the frame this many times, each time with all work that a moved light needs, and "
-                  "report the median time")
+                  "report the median time; with one sample of each pixel where --samples is not given")
       ->check(CLI::Range(1u, 1000000u))
       ->type_name("N")
       ->capture_default_str();

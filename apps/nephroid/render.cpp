@@ -145,7 +145,7 @@ Command addRender(CLI::App& program) {
       *command, options->output,
       "OUT.png: exposed and tone-mapped. OUT.exr: 32-bit float luminance in nit: R,G,B the total; "
       "direct.R,G,B and caustics.R,G,B its parts by light that met no caster, and by light that met one; "
-      "depth.Z in meters; normal.X,Y,Z");
+      "depth.Z in meters and normal.X,Y,Z of the sample nearest to the pixel's middle");
   addSize(*command, options->size);
   addTime(*command, options->time);
   addFrames(*command, *options);
@@ -156,7 +156,12 @@ Command addRender(CLI::App& program) {
   addRepeat(*command, options->repeat);
   addStats(*command, options->stats);
   addQuiet(*command, options->isQuiet);
-  return {command, [options] { runRender(*options); }};
+  const CLI::Option *samples = command->get_option("--samples"), *repeat = command->get_option("--repeat");
+  return {command, [=] {
+            // Frames that are timed are those of a window in which something moves.
+            if (repeat->count() > 0 && samples->count() == 0) options->picture.samples.count = 1;
+            runRender(*options);
+          }};
 }
 
 }  // namespace nephroid

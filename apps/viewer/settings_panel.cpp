@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "techniques/registry.h"
+#include "viewer.h"
 #include "widgets.h"
 
 namespace nephroid {
@@ -70,7 +71,7 @@ void drawSettingsPanel(ViewerState& state) {
   }
   if (ImGui::Button("Defaults")) {
     const TechniqueSettings before = state.settings.technique;
-    state.settings = {};
+    state.settings = viewerSettings();
     state.settings.technique.technique = before.technique;
     state.settings.technique.baked = before.baked;
   }

@@ -199,6 +199,10 @@ void drawTimes(ViewerState& state, const Area& picture, float scale) {
   ImGui::Text("%.1f ms", state.times.milliseconds());
   ImGui::SameLine();
   ImGui::TextDisabled("%.1f frames/s", state.framesPerSecond);
+  if (state.gathered > 0)
+    ImGui::Text("%u of %u samples", state.gathered, state.settings.samples.count);
+  else
+    ImGui::TextUnformatted("1 sample, edges smoothed");
   if (ImGui::BeginTable("passes", 2, ImGuiTableFlags_SizingFixedFit)) {
     for (const PassTime& pass : state.times.passes()) drawPass(state, pass, scale);
     for (const auto& [name, count] : state.stats.counts) {

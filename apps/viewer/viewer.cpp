@@ -22,8 +22,10 @@ constexpr int kFramesToSettle = 3;  // that panels take to answer what was done 
 constexpr double kIdleWait = 0.5;   // s
 constexpr double kBusyWait = 0.03;  // s, while something goes on beside the window
 
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+// Samples are gathered after a picture was drawn.
+bool areDrawnAlike(PictureSettings a, const PictureSettings& b) {
+  a.samples = b.samples;
+  return a == b;
 }
 
 // A run that is measured does not depend on how a window was left.
@@ -78,12 +80,12 @@ void Viewer::prepare(std::function<Scene()> load) {
 
 // The scene as it is shown, with other settings or other materials than what draws it was made for.
 void Viewer::prepareWhatIsWanted() {
-  if (preparation_ || !state_.isOpen) return;
+  if (preparation_ || (drawing_ && drawing_->isOfNewStage) || !state_.isOpen) return;
   const SceneState wanted = stateOf(state_.scene);
   if (failed_ && isSameScene(failed_->first, wanted) && failed_->second == state_.settings) return;
   failed_.reset();
   const Stage* stage = graphics_->stage.get();
-  if (stage && stage->settings() == state_.settings &&
+  if (stage && areDrawnAlike(stage->settings(), state_.settings) &&
       !needsPreparation(stateOf(stage->scene()), wanted, state_.settings.technique))
     return;
   opensScene_ = false;
@@ -92,7 +94,7 @@ void Viewer::prepareWhatIsWanted() {
 
 void Viewer::takePrepared() {
   state_.preparing.reset();
-  if (!preparation_) return;
+  if (!preparation_ || drawing_) return watchDrawing();
   if (std::exchange(state_.isPreparationCanceled, false)) preparation_->cancel();
   if (!preparation_->isDone()) {
     state_.preparing = preparation_->progress();
@@ -100,46 +102,22 @@ void Viewer::takePrepared() {
   }
   const std::unique_ptr<Preparation> done = std::move(preparation_);
   framesToGo_ = kFramesToSettle;
-  const auto ends = [&] { return std::exchange(opensScene_, false); };
+  preparedMilliseconds_ = millisecondsSince(preparationStart_);
   try {
-    adopt(done->take());
-    ends();
+    beginStage(done->take());
   } catch (const gpu::DeviceLost&) {
     throw;
   } catch (const Interrupted&) {
-    tell(state_, "Canceled: the picture stays as it was");
-    if (ends() || !graphics_->stage) return;
-    state_.settings = graphics_->stage->settings();
-    state_.scene.materials = graphics_->stage->scene().materials;
+    keepStage();
   } catch (const std::exception& wrong) {
-    tell(state_, wrong.what(), true);
-    if (!ends()) failed_ = {stateOf(state_.scene), state_.settings};
+    failToPrepare(wrong.what());
   }
 }
 
-void Viewer::adopt(std::unique_ptr<Prepared> prepared) {
-  Scene scene = prepared->scene;
-  graphics_->stage.reset();
-  graphics_->stage =
-      std::make_unique<Stage>(graphics_->device(), std::move(prepared), pictureSize(), options_.frames == 0);
-  ++stageCount_;
-  prepareMilliseconds_ = millisecondsSince(preparationStart_);
-  if (!opensScene_) return;
-  const Camera before = state_.scene.camera;
-  const bool keepsCamera = std::exchange(keepsCamera_, false) && scene.camera == state_.firstState.camera;
-  state_.scene = std::move(scene);
-  state_.file = opening_;
-  text_ = openingText_;
-  state_.isOpen = true;
-  state_.selection = {};
-  state_.firstState = stateOf(state_.scene);
-  state_.history = History(state_.firstState);
-  if (keepsCamera) state_.scene.camera = before;
-}
-
 double Viewer::waitSeconds() const {
-  if (endsByItself(options_) || framesToGo_ > 0 || state_.isPlaying) return 0;
-  const bool isBusy = preparation_ || referenceWorker_.isRunning() || !tasks_.empty() || shaders_.valid();
+  if (endsByItself(options_) || framesToGo_ > 0 || state_.isPlaying || isGathering()) return 0;
+  const bool isBusy =
+      preparation_ || drawing_ || referenceWorker_.isRunning() || !tasks_.empty() || shaders_.valid();
   return isBusy ? kBusyWait : kIdleWait;
 }
 
@@ -167,7 +145,7 @@ void Viewer::usePointer(const Input& input) {
   inPicture.mouse -= area.corner;
   inPicture.takenAt -= area.corner;
   mouse_ = inPicture.mouse;
-  const RayScene* rays = graphics_->stage ? &graphics_->stage->rayScene() : nullptr;
+  const RayScene* rays = graphics_->stage && !isStageBusy() ? &graphics_->stage->rayScene() : nullptr;
   const bool isOver = !graphics_->gui().wantsMouse() && inPicture.mouse.x >= 0;
   if (isOver && input.wheel != 0) lastCameraStep_ = Clock::now();
   if (std::ranges::count(input.wentDown, true) > 0) keepHistory();
@@ -229,24 +207,6 @@ uvec2 Viewer::pictureSize() const {
   return glm::max(uvec2(area.size) / state_.divisor, uvec2(16));
 }
 
-bool Viewer::drawPicture() {
-  if (!graphics_->stage || !state_.isOpen) return false;
-  Stage& stage = *graphics_->stage;
-  const Drawn wanted{stateOf(state_.scene), state_.scene.time, pictureSize(),
-                     stage.settings().technique.transport.paths, stageCount_};
-  if (wanted == drawn_ && options_.frames == 0) return false;
-  if (wanted.size != stage.size()) stage.resize(wanted.size);
-  const Clock::time_point start = Clock::now();
-  const std::vector<PassTime> passes = stage.render(state_.scene);
-  state_.times.add(millisecondsSince(start), passes);
-  state_.stats = stage.stats();
-  state_.outputs = stage.renderer().outputs();
-  state_.memoryBytes = graphics_->device().memoryBytes();
-  drawn_ = wanted;
-  lastChange_ = Clock::now();
-  return true;
-}
-
 void Viewer::layOut() {
   const ImGuiIO& io = ImGui::GetIO();
   const vec2 windowSize(io.DisplaySize.x, io.DisplaySize.y);
@@ -278,6 +238,8 @@ void Viewer::showFrame() {
   keepHistoryAtRest();
   showTitle();
   const bool isNew = drawPicture();
+  if (!isNew && isGathering()) gatherPicture();
+  if (!isGathering() && !isStageBusy()) writeWantedPictures();
   refineReference();
   chooseShownImage();
   updateLines();
@@ -294,6 +256,7 @@ void Viewer::showFrame() {
 // the host's, and stays.
 void Viewer::recover(const std::string& why, bool isLost) {
   constexpr double kRareLoss = 10;  // s between two of them
+  drawing_.reset();
   graphics_.reset();
   drawn_ = {};
   uploaded_.reset();
@@ -345,7 +308,7 @@ void Viewer::writeShown() {
 }
 
 bool Viewer::isDone() const {
-  const bool isSettled = options_.picture.empty() || shownFrames_ > kFramesToSettle;
+  const bool isSettled = options_.picture.empty() || (shownFrames_ > kFramesToSettle && !isGathering());
   return endsByItself(options_) && frameMilliseconds_.size() >= options_.frames && isSettled;
 }
 
@@ -369,7 +332,8 @@ bool Viewer::step() {
   } catch (const std::bad_alloc&) {
     recover("There was not enough memory for this; try fewer vertices, directions or texels", false);
   }
-  if (endsByItself(options_) && !graphics_->stage && !preparation_) throw InputError(state_.message.text);
+  if (endsByItself(options_) && !graphics_->stage && !preparation_ && !drawing_)
+    throw InputError(state_.message.text);
   return !isDone();
 }
 

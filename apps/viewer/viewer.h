@@ -10,9 +10,16 @@
 
 namespace nephroid {
 
+// With the samples of each pixel that a picture at rest has at last.
+inline PictureSettings viewerSettings() {
+  PictureSettings settings;
+  settings.samples.count = 64;
+  return settings;
+}
+
 struct ViewerOptions {
   std::filesystem::path scene;  // empty: none yet
-  PictureSettings settings;
+  PictureSettings settings = viewerSettings();
   uvec2 size{0};       // of the picture, pixels; 0: the size of the last use
   double time = 0;     // s
   std::string device;  // as gpu::DeviceOptions::device
@@ -21,6 +28,7 @@ struct ViewerOptions {
   std::vector<std::string> shown;  // in place of the picture, or over it: of viewNames()
   // Write what the window shows to this PNG, without panels, and end; empty: do not.
   std::filesystem::path picture;
+  bool waitsForFrames = false;  // however long one takes; otherwise the window goes on beside it
   std::filesystem::path stats;  // where to write the figures of those frames; empty: nowhere
 };
 

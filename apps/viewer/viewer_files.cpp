@@ -252,20 +252,25 @@ void Viewer::addMesh(const fs::path& file) {
 }
 
 void Viewer::takePicture(const char* extension) {
-  if (!graphics_->stage || !state_.isOpen) return;
-  const fs::path file = freeName(state_.file.stem().string(), extension);
-  Renderer& renderer = graphics_->stage->renderer();
-  // The device has it at once; what takes long is done beside the window.
-  if (file.extension() == ".png")
-    tasks_.push_back(std::async(std::launch::async, [file, picture = renderer.picture()] {
-      writePng(file, picture);
-      return "Picture: " + file.string();
-    }));
-  else
-    tasks_.push_back(std::async(std::launch::async, [file, layers = renderer.layers()] {
-      writeExr(file, layers);
-      return "Picture: " + file.string();
-    }));
+  if (graphics_->stage && state_.isOpen && std::ranges::count(wantedPictures_, extension) == 0)
+    wantedPictures_.emplace_back(extension);
+}
+
+void Viewer::writeWantedPictures() {
+  for (const std::string& extension : std::exchange(wantedPictures_, {})) {
+    const fs::path file = freeName(state_.file.stem().string(), extension);
+    // The device has it at once; what takes long is done beside the window.
+    if (file.extension() == ".png")
+      tasks_.push_back(std::async(std::launch::async, [file, picture = shownPicture()] {
+        writePng(file, picture);
+        return "Picture: " + file.string();
+      }));
+    else
+      tasks_.push_back(std::async(std::launch::async, [file, layers = graphics_->stage->renderer().layers()] {
+        writeExr(file, layers);
+        return "Picture: " + file.string();
+      }));
+  }
 }
 
 void Viewer::finishTasks() {
@@ -300,7 +305,7 @@ void Viewer::recordVideo() {
 
 void Viewer::addToVideo() {
   if (!video_) return;
-  if (graphics_->stage->size() != video_->size() || !video_->add(graphics_->stage->renderer().picture())) {
+  if (graphics_->stage->size() != video_->size() || !video_->add(shownPicture())) {
     const bool isResized = graphics_->stage->size() != video_->size();
     video_.reset();
     const std::string file = std::exchange(state_.recording, {});

@@ -11,6 +11,7 @@
 
 #include "formats/save_scene.h"
 #include "gpu/reloadable_shader.h"
+#include "gpu/transfer.h"
 #include "graphics.h"
 #include "key_bindings.h"
 #include "pointer.h"
@@ -23,6 +24,10 @@
 
 namespace nephroid {
 
+inline double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 class Viewer {
  public:
   explicit Viewer(const ViewerOptions& options);
@@ -34,7 +39,9 @@ class Viewer {
   ViewerState& state() { return state_; }
   DesktopWindow& window() { return window_; }
   gpu::Device& device() { return graphics_->device(); }
-  ByteImage picture() { return graphics_->stage->renderer().picture(); }  // needs a scene that has been drawn
+  // Of a scene that has been drawn: as it was rendered, and as it is shown, with smoothed edges.
+  ByteImage picture() { return graphics_->stage->renderer().picture(); }
+  ByteImage shownPicture() { return gpu::downloadPicture(device(), graphics_->stage->picture()); }
 
   // viewer_files.cpp
   void open(const std::filesystem::path& file);  // asks first if changes are not saved
@@ -43,9 +50,9 @@ class Viewer {
   bool isSaved() const;
   void undo();
   void redo();
-  void takePicture(const char* extension);
-  void recordVideo();  // starts a video, or ends it
-  void close();        // asks before changes are lost
+  void takePicture(const char* extension);  // when its samples are gathered, or before it changes
+  void recordVideo();                       // starts a video, or ends it
+  void close();                             // asks before changes are lost
   // viewer_time.cpp
   void setTime(double seconds);
   void dropStone();  // into the water under the pointer
@@ -55,6 +62,37 @@ class Viewer {
   void reloadShaders();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  // Everything that the picture on the screen depends on.
+  struct Drawn {
+    SceneState state;
+    double time = 0;
+    uvec2 size{0};
+    Paths paths = Paths::transmission;
+    uint32_t samples = 1;
+    uint32_t stage = 0;  // number of the stage, counted from the start
+    bool operator==(const Drawn&) const = default;
+  };
+
+  // A frame that is being drawn on another thread.
+  struct Drawing {
+    Drawing(Drawn wanted, std::shared_ptr<Prepared> from, bool ofNewStage)
+        : of(std::move(wanted)), prepared(std::move(from)), isOfNewStage(ofNewStage) {}
+    ~Drawing();  // cancels it, and waits for its end
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+    Drawn of;
+    std::shared_ptr<Prepared> prepared;  // with the progress of the work
+    bool isOfNewStage;
+    bool isLate = false;  // the window no longer waits for it
+    Clock::time_point start = Clock::now();
+    std::unique_ptr<Stage> made;  // the new stage
+    std::vector<PassTime> passes;
+    std::future<void> work;
+  };
+
   // viewer.cpp
   Viewer(const ViewerOptions& options, const ViewerPreferences& preferences);
   float panelWidth() const;  // pixels
@@ -62,7 +100,6 @@ class Viewer {
   void prepare(std::function<Scene()> load);
   void prepareWhatIsWanted();
   void takePrepared();
-  void adopt(std::unique_ptr<Prepared> prepared);
   double waitSeconds() const;
   void receive(const Input& input);
   void moveByKeys(double seconds);
@@ -70,7 +107,6 @@ class Viewer {
   void keepHistory();
   void keepHistoryAtRest();
   uvec2 pictureSize() const;
-  bool drawPicture();  // false where nothing has changed
   void layOut();
   void showTitle();
   void showFrame();
@@ -78,6 +114,19 @@ class Viewer {
   std::string rescued() const;
   void writeStatsOfFrames() const;
   bool isDone() const;  // what a run without a user is for
+  // viewer_drawing.cpp
+  Drawn wantedOf(const Scene& scene, const PictureSettings& drawnWith, uint32_t stage) const;
+  void beginStage(std::unique_ptr<Prepared> prepared);
+  void beginFrame();
+  bool isStageBusy() const;  // nothing of the stage but its picture may be used
+  bool drawPicture();
+  bool takeDrawing();
+  void adopt(Drawing& done);
+  void keepStage();
+  void failToPrepare(const std::string& why);
+  void watchDrawing();
+  bool isGathering() const;
+  void gatherPicture();
   // viewer_keys.cpp
   void press(const KeyPress& key);
   // viewer_files.cpp
@@ -89,6 +138,7 @@ class Viewer {
   void answerQuestion();
   void finishTasks();
   void addToVideo();
+  void writeWantedPictures();
   std::filesystem::path fileToSave() const;
   SavedScene sceneToSave() const;
   Scene sceneAsLoaded() const;
@@ -106,19 +156,8 @@ class Viewer {
   // viewer_shaders.cpp
   void useShaders();
 
-  // Everything that the picture on the screen depends on.
-  struct Drawn {
-    SceneState state;
-    double time = 0;
-    uvec2 size{0};
-    Paths paths = Paths::transmission;
-    uint32_t stage = 0;  // number of the stage, counted from the start
-    bool operator==(const Drawn&) const = default;
-  };
   // Whether the two show the same, apart from how they were drawn: then they have the same reference.
   static bool seeTheSame(Drawn a, const Drawn& b);
-
-  using Clock = std::chrono::steady_clock;
 
   const ViewerOptions options_;
   DesktopWindow window_;
@@ -135,7 +174,8 @@ class Viewer {
   std::optional<std::pair<SceneState, PictureSettings>> failed_;  // the state whose preparation failed
   Clock::time_point lastLoss_{};                                  // when the device was last lost
   Clock::time_point preparationStart_;
-  double prepareMilliseconds_ = 0;
+  double preparedMilliseconds_ = 0;  // of the last preparation
+  double prepareMilliseconds_ = 0;   // of that of the stage
 
   std::string text_;  // of the scene's file, as it was last saved; empty for glTF
   WaveRuns waves_;    // at the time that is shown
@@ -143,6 +183,7 @@ class Viewer {
   std::filesystem::file_time_type fileTime_{}, lastSeenTime_{};
   Clock::time_point lastWatch_{};
   std::vector<std::future<std::string>> tasks_;  // work on other threads; each returns a message
+  std::vector<std::string> wantedPictures_;      // their extensions
   std::unique_ptr<VideoPipe> video_;
   std::future<gpu::ShaderChanges> shaders_;  // being compiled
 
@@ -157,6 +198,8 @@ class Viewer {
   GuiImage picture_;
   uint32_t stageCount_ = 0;
   Drawn drawn_;
+  std::optional<Drawn> canceled_;     // whose drawing the user has canceled
+  std::unique_ptr<Drawing> drawing_;  // null: none
   bool isFlightHeld_ = false;
   Clock::time_point lastCameraStep_{};  // when the wheel or a key last moved the camera
   int framesToGo_ = 0;                  // frames still to draw before the window waits for input

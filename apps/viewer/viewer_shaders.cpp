@@ -16,7 +16,9 @@ void Viewer::reloadShaders() {
 
 // What does not compile, or does not fit, changes nothing.
 void Viewer::useShaders() {
-  if (!shaders_.valid() || shaders_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (!shaders_.valid() || drawing_ ||
+      shaders_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return;
   framesToGo_ = std::max(framesToGo_, 2);
   try {
     gpu::ShaderChanges made = shaders_.get();

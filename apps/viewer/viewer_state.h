@@ -46,6 +46,7 @@ struct ViewerState {
   bool isOpen = false;         // there is a scene
   Scene scene;                 // as shown now
   PictureSettings settings;    // as the user wants them
+  uint32_t gathered = 0;       // samples of each pixel in the picture; 0: one, with smoothed edges
   History history;
   SceneState firstState;  // as in the file
   Selection selection;

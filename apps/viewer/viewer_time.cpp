@@ -20,7 +20,7 @@ void Viewer::setTime(double seconds) {
 
 // Into water that moves on a grid of its own: what it does then is simulated from here on.
 void Viewer::dropStone() {
-  if (!state_.isOpen || !graphics_->stage) return;
+  if (!state_.isOpen || !graphics_->stage || isStageBusy()) return;
   const Area area = pictureArea(state_, vec2(window_.framebufferSize()), graphics_->gui().scale());
   Hit hit;
   const Ray ray = rayThrough(state_.scene.camera, glm::max(uvec2(area.size), uvec2(1)), mouse_);

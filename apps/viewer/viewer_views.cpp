@@ -63,7 +63,7 @@ void Viewer::refineReference() {
     referenceOf_.reset();
     state_.reference.reset();
   }
-  if (!graphics_->stage || !state_.isOpen || drawn_.stage == 0) return;
+  if (!graphics_->stage || !state_.isOpen || drawn_.stage == 0 || isStageBusy()) return;
   const double atRest = std::chrono::duration<double>(Clock::now() - lastChange_).count();
   if (isWanted && !isThat && atRest >= kSecondsAtRest) {
     referenceWorker_.start(state_.scene, referenceSettingsFor(drawn_.paths, drawn_.size));
@@ -71,7 +71,7 @@ void Viewer::refineReference() {
     comparedOf_.reset();
   }
   if (!referenceWorker_.isRunning()) return;
-  if (state_.shown == Shown::error && comparedOf_ != drawn_) {
+  if (state_.shown == Shown::error && comparedOf_ != drawn_ && !isGathering()) {
     referenceWorker_.compare(graphics_->stage->renderer().layers());
     comparedOf_ = drawn_;
   }
@@ -96,8 +96,8 @@ void Viewer::showOutput() {
 }
 
 void Viewer::chooseShownImage() {
-  if (!graphics_->stage) return;
-  picture_ = {&graphics_->stage->renderer().images().picture, false};
+  if (!graphics_->stage || isStageBusy()) return;
+  picture_ = {&graphics_->stage->picture(), false};
   const auto& reference = state_.reference;
   const bool isError = !state_.isReferenceHeld && state_.shown == Shown::error;
   if (reference && reference->passes > 0 && (state_.isReferenceHeld || (isError && reference->error))) {
@@ -124,6 +124,7 @@ void Viewer::addMeshLines() {
 }
 
 void Viewer::updateLines() {
+  if (isStageBusy()) return;
   if (!graphics_->stage || std::ranges::count(state_.overlays, true) == 0) {
     lines_.clear();
     linesOf_.reset();

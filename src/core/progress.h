@@ -37,8 +37,10 @@ class Progress {
     double fraction = 0;
   };
   State state() const;
-  // Ends the work as Ctrl-C does. Any thread may call it; it cannot be undone.
+  // Ends the work as Ctrl-C does. Any thread may call it.
   void cancel() { isCanceled_ = true; }
+  // Other work may begin after what was canceled has ended.
+  void renew() { isCanceled_ = false; }
   bool isCanceled() const { return isCanceled_; }
 
  private:

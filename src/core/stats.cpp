@@ -22,7 +22,7 @@ std::string statsJson(const Stats& stats) {
   using Json = nlohmann::ordered_json;
   Json passes = Json::array();
   for (const PassTime& pass : stats.passes)
-    passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
+    passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}, {"samples", pass.samples}});
   Json counts = Json::object();
   for (const auto& [name, count] : stats.counts) counts[name] = count;
   Json settings = Json::object();

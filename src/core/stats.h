@@ -13,6 +13,7 @@ namespace nephroid {
 struct PassTime {
   std::string name;
   double milliseconds = 0;
+  uint32_t samples = 1;  // of each pixel, that the time is of; 1 too for what is made once for all of them
 };
 
 // What became of the light onto casters, in lumen of luminance.
@@ -33,7 +34,8 @@ struct Stats {
   std::vector<std::pair<std::string, std::string>> settings;
   double prepareMilliseconds =
       0;  // work done once: loading, tables, all that does not change when a light moves
-  double frameMilliseconds = 0;  // median over the frames; each does all work that a moved light would need
+  // Median over the frames; each does all work that a moved light would need, and draws all samples.
+  double frameMilliseconds = 0;
   std::vector<PassTime> passes;  // of the median frame, in the order they ran
   std::vector<std::pair<std::string, uint64_t>>
       counts;                // "vertices", "beams", "rays", and others that depend on the technique
@@ -54,9 +56,9 @@ void addLine(std::vector<std::string>& lines, const std::string& line);
 void setCount(Stats& stats, const std::string& name, uint64_t count);
 
 // {"schema": "nephroid stats 2", "device", "technique", "source", "settings": {...}, "error", "left_out",
-// "shortfall", "notes": [...], "prepare_ms", "frame_ms", "passes": [{"name", "ms"}], "counts": {...},
-// "memory_bytes"}; the notes begin with the warnings; error and left_out are null where the technique knows
-// none.
+// "shortfall", "notes": [...], "prepare_ms", "frame_ms", "passes": [{"name", "ms", "samples"}], "counts":
+// {...}, "memory_bytes"}; the notes begin with the warnings; error and left_out are null where the technique
+// knows none.
 std::string statsJson(const Stats& stats);
 
 // The middle value, or the mean of the middle two where there is an even number. 0 for an empty list.

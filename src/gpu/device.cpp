@@ -289,7 +289,18 @@ Device::~Device() {
   vkDestroyDevice(handle_, nullptr);
 }
 
+VkResult Device::present(const VkPresentInfoKHR& what) {
+  const std::lock_guard lock(queueUse_);
+  return vkQueuePresentKHR(queue_, &what);
+}
+
+void Device::waitForQueue() {
+  const std::lock_guard lock(queueUse_);
+  vkQueueWaitIdle(queue_);
+}
+
 std::vector<PassTime> Device::submitAndWait(const std::function<void(CommandList&)>& record) {
+  const std::lock_guard lock(queueUse_);
   check(vkResetCommandPool(handle_, commandPool_, 0), "resetting the command pool");
   auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;

@@ -1,9 +1,11 @@
 // A Vulkan 1.3 device with one queue. Work is recorded, submitted and waited for. The same commands give the
-// same bytes. After submitAndWait the device uses nothing that the caller owns.
+// same bytes. After submitAndWait the device uses nothing that the caller owns. Several threads may use it,
+// each its own buffers, images and programs: the work of one waits for that of another.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -52,9 +54,12 @@ class Device {
   // where the device has no timestamps.
   std::vector<PassTime> submitAndWait(const std::function<void(CommandList&)>& record);
 
+  // Shows an image of a window, and waits for what was shown, as the functions of Vulkan do.
+  VkResult present(const VkPresentInfoKHR& what);
+  void waitForQueue();
+
   VkInstance instance() const { return instance_.handle(); }
   VkDevice handle() const { return handle_; }
-  VkQueue queue() const { return queue_; }
   uint32_t queueFamily() const { return queueFamily_; }
   VkPhysicalDevice physicalDevice() const { return physicalDevice_; }
   const DeviceInfo& info() const { return info_; }
@@ -83,6 +88,7 @@ class Device {
   uint32_t queueFamily_ = 0;
   uint32_t timestampBits_ = 0;
   VkDevice handle_ = VK_NULL_HANDLE;
+  std::mutex queueUse_;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool commandPool_ = VK_NULL_HANDLE;
   VkCommandBuffer commandBuffer_ = VK_NULL_HANDLE;

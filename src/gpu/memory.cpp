@@ -132,6 +132,7 @@ MemoryBlock& MemoryPool::newBlock(uint32_t type, VkDeviceSize size, MemoryKind k
 
 Allocation MemoryPool::allocate(const VkMemoryRequirements& requirements, MemoryKind kind,
                                 const std::string& name) {
+  const std::lock_guard lock(use_);
   const uint32_t type = memoryType(requirements.memoryTypeBits, kind);
   // Buffers and images share blocks, so both keep the granularity between the two.
   const VkDeviceSize alignment = std::max(requirements.alignment, granularity_);
@@ -153,7 +154,18 @@ Allocation MemoryPool::allocate(const VkMemoryRequirements& requirements, Memory
   return {holder, holder->memory, *offset, size, holder->mapped ? holder->mapped + *offset : nullptr};
 }
 
+uint64_t MemoryPool::usedBytes() const {
+  const std::lock_guard lock(use_);
+  return usedBytes_;
+}
+
+uint64_t MemoryPool::allocationCount() const {
+  const std::lock_guard lock(use_);
+  return allocationCount_;
+}
+
 void MemoryPool::release(const Allocation& allocation) {
+  const std::lock_guard lock(use_);
   usedBytes_ -= allocation.size;
   --allocationCount_;
   allocation.block->giveBack(allocation.offset, allocation.size);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -38,13 +39,14 @@ class MemoryPool {
   // Throws RuntimeFailure with the number of bytes and with `name`, the purpose of the memory.
   Allocation allocate(const VkMemoryRequirements& requirements, MemoryKind kind, const std::string& name);
   void release(const Allocation& allocation);
-  uint64_t usedBytes() const { return usedBytes_; }
-  uint64_t allocationCount() const { return allocationCount_; }  // allocations that are in use
+  uint64_t usedBytes() const;
+  uint64_t allocationCount() const;  // allocations that are in use
 
  private:
   uint32_t memoryType(uint32_t allowedTypes, MemoryKind kind) const;
   MemoryBlock& newBlock(uint32_t type, VkDeviceSize size, MemoryKind kind, const std::string& name);
 
+  mutable std::mutex use_;
   VkDevice device_;
   std::string deviceName_;
   VkPhysicalDeviceMemoryProperties properties_{};

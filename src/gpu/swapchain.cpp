@@ -75,7 +75,7 @@ void Swapchain::choosePace(Pace pace) {
 }
 
 void Swapchain::destroy() {
-  vkQueueWaitIdle(device_.queue());
+  device_.waitForQueue();
   if (handle_) vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
   handle_ = VK_NULL_HANDLE;
 }
@@ -151,7 +151,7 @@ bool Swapchain::show(const Image& image, uvec2 windowSize) {
   present.swapchainCount = 1;
   present.pSwapchains = &handle_;
   present.pImageIndices = &index;
-  const VkResult shown = vkQueuePresentKHR(device_.queue(), &present);
+  const VkResult shown = device_.present(present);
   isOutdated_ = isOutOfDate(shown) || shown == VK_SUBOPTIMAL_KHR || next == VK_SUBOPTIMAL_KHR;
   if (!isOutdated_) check(shown, "showing an image");
   return !isOutOfDate(shown);

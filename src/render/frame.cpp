@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "core/interrupt.h"
 #include "core/stopwatch.h"
 #include "render/frame_data.h"
+#include "render/samples/sample_places.h"
 #include "scene/volume.h"
 
 namespace nephroid {
@@ -17,7 +19,7 @@ void onHost(std::vector<PassTime>& passes, const char* name, const Work& work) {
   passes.push_back({name, watch.milliseconds()});
 }
 
-// Passes that run several times in a frame as one each, where they first ran.
+// Passes that run several times in a sample as one each, where they first ran.
 std::vector<PassTime> summedByName(const std::vector<PassTime>& passes) {
   std::vector<PassTime> sums;
   for (const PassTime& pass : passes) {
@@ -28,6 +30,37 @@ std::vector<PassTime> summedByName(const std::vector<PassTime>& passes) {
       found->milliseconds += pass.milliseconds;
   }
   return sums;
+}
+
+// Adds the passes of one more sample to those of the samples before.
+void addSampleTimes(const std::vector<PassTime>& sample, std::vector<PassTime>& all) {
+  for (const PassTime& pass : summedByName(sample)) {
+    const auto found = std::ranges::find(all, pass.name, &PassTime::name);
+    if (found == all.end()) {
+      all.push_back(pass);
+    } else {
+      found->milliseconds += pass.milliseconds;
+      ++found->samples;
+    }
+  }
+}
+
+// What is made again for another sample of the same frame.
+constexpr Remade kSightAlone{.sight = true, .shadowMaps = false, .beams = false};
+
+// The parts of a picture outside of `inner`, in at most four rectangles.
+std::vector<gpu::Region> around(const gpu::Region& inner, uvec2 size) {
+  if (inner.size.x == 0) return {{{0, 0}, size}};
+  const ivec2 low = inner.corner, high = inner.corner + ivec2(inner.size), end(size);
+  std::vector<gpu::Region> parts;
+  const auto add = [&](ivec2 from, ivec2 to) {
+    if (from.x < to.x && from.y < to.y) parts.push_back({from, uvec2(to - from)});
+  };
+  add({0, 0}, {end.x, low.y});
+  add({0, low.y}, {low.x, high.y});
+  add({high.x, low.y}, {end.x, high.y});
+  add({0, high.y}, end);
+  return parts;
 }
 
 void clearRegion(gpu::CommandList& commands, const gpu::Image& image,
@@ -68,7 +101,9 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
       sight_(device, settings.sight),
       directLight_(device, transport.scene(), shadowMapSizeOf(settings)),
-      shafts_(device, transport.scene(), settings.size, settings.shafts) {
+      shafts_(device, transport.scene(), settings.size, settings.shafts),
+      sums_(device) {
+  sums_.resize(settings.size);
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
   technique_.reserve(settings.size);
 }
@@ -79,29 +114,99 @@ void Renderer::resize(uvec2 size) {
   images_ = createFrameImages(device_, size.x, size.y);
   directLight_.resize(shadowMapSizeOf(settings_));
   shafts_.resize(size);
+  sums_.resize(size);
+  seenAt_.reset();
   technique_.reserve(size);
 }
 
 std::vector<PassTime> Renderer::render(const Scene& scene) {
+  try {
+    return draw(scene);
+  } catch (...) {
+    lastScene_ = {};
+    seenAt_.reset();
+    throw;
+  }
+}
+
+std::vector<PassTime> Renderer::draw(const Scene& scene) {
   std::vector<PassTime> passes;
   onHost(passes, "placement", [&] { place(scene); });
   const Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.traits().followsCamera);
   onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_, shafts_.lightsInAir()); });
   if (remade.beams) onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
-  if (remade.sight)
-    onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
-  ensureImages();
+  arePlanesInAirChosen_ = false;
+  sums_.begin();
+  if (settings_.samples > 1) {
+    places_ = samplePlaces(settings_.samples);
+    addSample(remade, passes);
+    std::vector<PassTime> all = summedByName(passes);
+    while (sums_.count() < settings_.samples) {
+      throwIfInterrupted();
+      passes.clear();
+      addSample(kSightAlone, passes);
+      addSampleTimes(passes, all);
+    }
+    drawMean(all);
+    return all;
+  }
+  drawSample(vec2(0), remade, passes);
+  const std::vector<PassTime> last = device_.submitAndWait([&](gpu::CommandList& commands) {
+    commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}, {}); });
+  });
+  passes.insert(passes.end(), last.begin(), last.end());
+  return summedByName(passes);
+}
 
+std::vector<PassTime> Renderer::gather(uint32_t samples) {
+  if (places_.size() != samples) {
+    places_ = samplePlaces(samples);
+    sums_.begin();
+  }
+  std::vector<PassTime> passes;
+  addSample(kSightAlone, passes);
+  drawMean(passes);
+  return summedByName(passes);
+}
+
+// The next one of those in `places_`.
+void Renderer::addSample(const Remade& remade, std::vector<PassTime>& passes) {
+  drawSample(places_.at(sums_.count()), remade, passes);
+  const std::vector<PassTime> last = addLayers();
+  passes.insert(passes.end(), last.begin(), last.end());
+}
+
+void Renderer::drawMean(std::vector<PassTime>& passes) {
+  const std::vector<PassTime> last = device_.submitAndWait([&](gpu::CommandList& commands) {
+    commands.pass("mean of samples", [&] { sums_.recordMean(commands, exposure_, images_.picture); });
+  });
+  passes.insert(passes.end(), last.begin(), last.end());
+}
+
+// Finds and lights what the pixels see at this place (pixels, from their middles).
+void Renderer::drawSample(vec2 at, Remade remade, std::vector<PassTime>& passes) {
+  remade.sight = remade.sight || seenAt_ != at;
+  if (remade.sight) {
+    look(at);
+    onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
+  }
+  ensureImages();
   drawFrame(remade, passes);
   constexpr Remade kShadedAlone{.sight = false, .shadowMaps = false, .beams = false};
   while (!technique_.finish()) drawFrame(kShadedAlone, passes);
-  return summedByName(passes);
+}
+
+void Renderer::look(vec2 at) {
+  seenAt_ = at;
+  view_ = at == vec2(0) ? middleView_ : viewAt(middleView_, at, settings_.size);
+  shafts_.look(view_);
+  for (Surface& surface : surfaces_) surface.constants.worldToClip = view_.worldToClip;
 }
 
 void Renderer::place(const Scene& scene) {
   transport_.place(scene);
-  view_ = viewOf(scene.camera, settings_.size);
-  shafts_.update(scene, view_);
+  middleView_ = viewOf(scene.camera, settings_.size);
+  shafts_.update(scene, middleView_);
   environment_ = scene.environment;
   exposure_ = scene.camera.exposure;
   gpuScene_.place(scene);
@@ -113,7 +218,6 @@ void Renderer::place(const Scene& scene) {
     Surface surface{!material.isCaster(), material.colorTexture != kNone, {}};
     surface.constants.vertices = gpuScene_.vertices();
     surface.constants.objects = gpuScene_.objects();
-    surface.constants.worldToClip = view_.worldToClip;
     surface.constants.object = i;
     surface.constants.color = material.color;
     surface.constants.material = object.material;
@@ -151,7 +255,9 @@ void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
     if (!shafts_) illuminate(commands);
   });
   if (!shafts_) return;
-  onHost(passes, "planes in the air", [&] { shafts_.choosePlanes(directLight_, gpuScene_, images_.depth); });
+  if (!std::exchange(arePlanesInAirChosen_, true))
+    onHost(passes, "planes in the air",
+           [&] { shafts_.choosePlanes(directLight_, gpuScene_, images_.depth); });
   onDevice([&](gpu::CommandList& commands) { illuminate(commands); });
 }
 
@@ -173,7 +279,7 @@ void Renderer::drawReceivers(gpu::CommandList& commands) {
       });
 }
 
-// What the frame has found is lit, and put together.
+// What the frame has found is lit.
 void Renderer::illuminate(gpu::CommandList& commands) {
   if (hasTurbidWater_) {
     commands.clear(images_.wayStart, vec4(0));
@@ -192,7 +298,6 @@ void Renderer::illuminate(gpu::CommandList& commands) {
   }
   if (shafts_)
     commands.pass("shafts", [&] { shafts_.record(commands, directLight_, gpuScene_, images_.depth); });
-  commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}); });
 }
 
 void Renderer::light(gpu::CommandList& commands, const SeenImages& seen,
@@ -205,9 +310,9 @@ void Renderer::light(gpu::CommandList& commands, const SeenImages& seen,
   technique_.shade(commands, points, seen.causticsLux);
 }
 
-// Everywhere as if there were no casters, then again where there may be.
+// Where there are no casters as if there were none at all, which is less work.
 void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
-                         const std::vector<const gpu::Image*>& targets) {
+                         const std::vector<const gpu::Image*>& targets, const std::optional<vec4>& clear) {
   const SeenImages& seen = images_.seen[kSeen];
   // For those that are not there, and not read, the first stand in.
   const auto ofEach = [&](gpu::Image SeenImages::*image) {
@@ -219,7 +324,7 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
   const vec3 extinctionAtEye = isEyeInWater ? sight_.waters().back().extinction : vec3(0);
   const auto draw = [&](const CasterTraits& traits, const gpu::Region& region) {
     gpu::RenderTargets rendered;
-    for (const gpu::Image* target : targets) rendered.colors.push_back({target, 0, std::nullopt});
+    for (const gpu::Image* target : targets) rendered.colors.push_back({target, 0, clear});
     rendered.region = region;
     commands.render(rendered, [&] {
       commands.draw(programs.at(traits), 3, 1,
@@ -235,10 +340,21 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
                      {"scattered", hasTurbidWater_ ? images_.scattered : seen.albedo}});
     });
   };
-  draw({}, {{0, 0}, settings_.size});
+  for (const gpu::Region& part : around(sight_.region(), settings_.size)) {
+    draw({}, part);
+    commands.barrier();
+  }
   if (sight_.region().size.x == 0) return;
-  commands.barrier();
   draw({true, sight_.reflects() || sight_.disperses(), sight_.disperses()}, sight_.region());
+}
+
+// Adds what was seen and lit last to the sums.
+std::vector<PassTime> Renderer::addLayers() {
+  const std::optional<vec4> nothing = sums_.count() == 0 ? std::optional(vec4(0)) : std::nullopt;
+  const std::vector<const gpu::Image*> sums = sums_.add();
+  return device_.submitAndWait([&](gpu::CommandList& commands) {
+    commands.pass("composite", [&] { composite(commands, programs_.layers, sums, nothing); });
+  });
 }
 
 }  // namespace nephroid

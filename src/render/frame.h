@@ -8,6 +8,7 @@
 #include "render/frame_data.h"
 #include "render/frame_resources.h"
 #include "render/last_scene.h"
+#include "render/samples/sample_sums.h"
 #include "render/settings.h"
 #include "render/sight/sight_pass.h"
 #include "render/view.h"
@@ -35,17 +36,25 @@ class Renderer {
   void resize(uvec2 size);
   uvec2 size() const { return settings_.size; }
 
-  // Draws a whole frame. The surfaces that the camera sees are kept from the last frame where the camera and
-  // all objects have not moved. Returns the times of the passes, on the host and on the device, in the order
-  // in which they ran.
+  // Draws a whole frame, with as many samples of each pixel as the settings say. The surfaces that the camera
+  // sees are kept from the last frame where the camera and all objects have not moved. Returns the times of
+  // the passes, on the host and on the device, in the order in which they ran. Where it throws, as where
+  // the technique's work is canceled, the picture stays as it was and the next frame is made anew.
   std::vector<PassTime> render(const Scene& scene);
 
-  // The picture of the last frame: exposed, tone-mapped, sRGB, 3 components.
+  // Draws one more of `samples` samples of the last frame, and the picture and the layers of those that were
+  // gathered so far. The first call after `render` begins anew; so does one for another number of samples.
+  std::vector<PassTime> gather(uint32_t samples);
+  uint32_t gathered() const { return sums_.count(); }  // samples in the picture; 0: the one of `render`
+
+  // The picture of the last frame, of the mean of its samples: exposed, tone-mapped, sRGB, 3 components.
   ByteImage picture() const;
 
   // The layers of the last frame: R,G,B, the luminance (nit); direct.R,G,B and caustics.R,G,B, the parts of
   // it by light that met no caster, and that met one; shafts.R,G,B, the part from the air and from water;
-  // depth.Z (m along the view, 0 where there is nothing) and normal.X,Y,Z of the nearest surface.
+  // depth.Z (m along the view, 0 where there is nothing) and normal.X,Y,Z of the nearest surface. Luminance
+  // is the mean of the samples; depth and normal are those of the last one, the nearest to the pixel's
+  // middle.
   Image layers();
 
   // The images of the last frame.
@@ -61,15 +70,20 @@ class Renderer {
   const Shafts& shafts() const { return shafts_; }
 
  private:
+  std::vector<PassTime> draw(const Scene& scene);
   void place(const Scene& scene);
+  void look(vec2 at);
+  void drawSample(vec2 at, Remade remade, std::vector<PassTime>& passes);
+  void addSample(const Remade& remade, std::vector<PassTime>& passes);
+  void drawMean(std::vector<PassTime>& passes);
   void drawFrame(const Remade& remade, std::vector<PassTime>& passes);
   void drawReceivers(gpu::CommandList& commands);
   void illuminate(gpu::CommandList& commands);
   void light(gpu::CommandList& commands, const SeenImages& seen, const std::optional<gpu::Region>& region);
   void composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
-                 const std::vector<const gpu::Image*>& targets);
+                 const std::vector<const gpu::Image*>& targets, const std::optional<vec4>& clear);
+  std::vector<PassTime> addLayers();
   void ensureImages();
-  std::vector<vec4> shaftsLuminance() const;
 
   gpu::Device& device_;
   SceneTransport& transport_;
@@ -82,11 +96,15 @@ class Renderer {
   SightPass sight_;
   DirectLight directLight_;
   Shafts shafts_;
+  SampleSums sums_;
 
   LastScene lastScene_;
+  std::vector<vec2> places_;           // of the samples that are being drawn
+  std::optional<vec2> seenAt_;         // the place in each pixel that the images of surfaces are of
+  bool arePlanesInAirChosen_ = false;  // for this frame
 
   // Of the frame being made.
-  View view_{};
+  View middleView_{}, view_{};     // of the pixels' middles, and of the sample
   std::vector<Surface> surfaces_;  // of the objects
   Environment environment_;
   float exposure_ = 1;

@@ -53,30 +53,15 @@ std::vector<PassOutput> Renderer::outputs() const {
   return all;
 }
 
-std::vector<vec4> Renderer::shaftsLuminance() const {
-  const std::size_t pixels = std::size_t{settings_.size.x} * settings_.size.y;
-  std::vector<vec4> luminance =
-      shafts_ ? gpu::download<vec4>(device_, shafts_.image()) : std::vector<vec4>(pixels, vec4(0, 0, 0, 1));
-  if (!hasTurbidWater_) return luminance;
-  const auto inWater = gpu::download<vec4>(device_, images_.scattered);
-  for (std::size_t i = 0; i < pixels; ++i) luminance[i] += luminance[i].a * inWater[i];
-  return luminance;
-}
-
 Image Renderer::layers() {
-  device_.submitAndWait([&](gpu::CommandList& commands) {
-    commands.pass("layers", [&] {
-      composite(commands, programs_.layers,
-                {&images_.luminance, &images_.directLuminance, &images_.causticsLuminance});
-    });
-  });
+  // The one sample of `render`, which is not summed.
+  const bool isOne = sums_.count() == 0;
+  if (isOne) addLayers();
   Image layers;
   layers.width = settings_.size.x;
   layers.height = settings_.size.y;
-  writeChannels(layers, "", "RGB", gpu::download<vec4>(device_, images_.luminance));
-  writeChannels(layers, "direct.", "RGB", gpu::download<vec4>(device_, images_.directLuminance));
-  writeChannels(layers, "caustics.", "RGB", gpu::download<vec4>(device_, images_.causticsLuminance));
-  writeChannels(layers, "shafts.", "RGB", shaftsLuminance());
+  sums_.read(layers);
+  if (isOne) sums_.begin();
 
   auto normals = gpu::download<vec4>(device_, images_.seen[kSeen].normal);
   const auto casterNormals = gpu::download<vec4>(device_, images_.casterNormal);

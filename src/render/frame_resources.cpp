@@ -31,9 +31,6 @@ FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t heig
   images.depth = image("depth", kDepth);
   images.seen[kSeen] = createSeenImages(device, width, height);
   images.casterNormal = image("caster normal");
-  images.luminance = image("luminance");
-  images.directLuminance = image("direct luminance");
-  images.causticsLuminance = image("caustics luminance");
   images.picture = image("picture", kBytes);
   return images;
 }
@@ -62,7 +59,7 @@ FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& lu
                                  shaders::render_picture_frag, {.colors = {{kBytes}}}, choices);
     programs.layers[traits] = gpu::createRasterProgram(
         device, "layers", shaders::techniques_whole_picture_vert, shaders::render_layers_frag,
-        {.colors = {{kFrameFormat}, {kFrameFormat}, {kFrameFormat}}}, choices);
+        {.colors = std::vector<gpu::ColorTarget>(4, {kFrameFormat, gpu::Blend::add})}, choices);
   }
   return programs;
 }

@@ -33,10 +33,7 @@ struct FrameImages {
   // The parts of view rays in water that absorbs or scatters, and the light that it scatters along them
   // (nit). Created when they are first needed.
   gpu::Image wayStart, wayDirection, scattered;
-  gpu::Image luminance;          // nit; filled for layers only
-  gpu::Image directLuminance;    // nit; filled for layers only
-  gpu::Image causticsLuminance;  // nit; filled for layers only
-  gpu::Image picture;            // rgba8, sRGB
+  gpu::Image picture;  // rgba8, sRGB
 };
 
 SeenImages createSeenImages(gpu::Device& device, uint32_t width, uint32_t height);
@@ -56,7 +53,7 @@ struct FramePrograms {
   gpu::Program receiver;
   gpu::Program texturedReceiver;
   std::map<CasterTraits, gpu::Program> picture;
-  std::map<CasterTraits, gpu::Program> layers;
+  std::map<CasterTraits, gpu::Program> layers;  // they add to their targets
 };
 
 // The sources of luminance in a scene, besides lights on receivers.

@@ -81,6 +81,14 @@ Luminance surfaceAt(ivec2 pixel) {
   return sum;
 }
 
+// Of it, what air and water scatter.
+vec3 airAt(ivec2 pixel) {
+  const vec3 inWater = kHasTurbidWater ? texelFetch(scattered, pixel, 0).rgb : vec3(0);
+  if (!kHasAir) return inWater;
+  const vec4 air = texelFetch(shafts, pixel, 0);
+  return air.rgb + air.a * inWater;
+}
+
 // Dobashi 2002, eq. 1.
 Luminance luminanceAt(ivec2 pixel) {
   Luminance surface = surfaceAt(pixel);

@@ -6,6 +6,7 @@ namespace nephroid {
 namespace {
 
 std::vector<SettingsView> withFrame(std::vector<SettingsView> views, PictureSettings& settings) {
+  views.push_back({"Samples", sampleSettings(), &settings.samples});
   views.push_back({"Sight", sightSettings(), &settings.sight});
   views.push_back({"Air", shaftSettings(), &settings.shafts});
   return views;
@@ -16,6 +17,7 @@ std::vector<SettingsView> withFrame(std::vector<SettingsView> views, PictureSett
 RenderSettings renderSettings(const PictureSettings& settings, uvec2 size) {
   RenderSettings render;
   render.size = size;
+  render.samples = settings.samples.count;
   render.sight = settings.sight;
   render.shafts = settings.shafts;
   return render;

@@ -6,6 +6,7 @@
 #include "core/shared_language.h"
 #include "core/stats.h"
 #include "render/air/settings.h"
+#include "render/samples/settings.h"
 #include "render/sight/settings.h"
 #include "techniques/settings.h"
 
@@ -14,6 +15,7 @@ namespace nephroid {
 struct RenderSettings {
   uvec2 size{640, 480};        // pixels
   uint32_t shadowMapSize = 0;  // texels along a side; 0: as many as pixels along the picture's longer side
+  uint32_t samples = 1;        // of each pixel
   SightSettings sight;
   ShaftSettings shafts;
   // Keep shadow maps and beams of the last frame where nothing that they depend on has changed. Without it,
@@ -24,6 +26,7 @@ struct RenderSettings {
 // All settings of a picture that a user may choose.
 struct PictureSettings {
   TechniqueSettings technique;
+  SampleSettings samples;
   SightSettings sight;
   ShaftSettings shafts;
   bool operator==(const PictureSettings&) const = default;

@@ -29,11 +29,23 @@ View viewOf(const Camera& camera, uvec2 size) {
   return view;
 }
 
-// x and y of clip space are the parts of a ray along two rows of the projection, which stand on each other
-// and on the view.
+View viewAt(const View& view, vec2 place, uvec2 size) {
+  View shifted = view;
+  shifted.shift = -2.0f * place / vec2(size);
+  for (glm::length_t column = 0; column < 4; ++column) {
+    shifted.worldToClip[column].x += shifted.shift.x * view.worldToClip[column].w;
+    shifted.worldToClip[column].y += shifted.shift.y * view.worldToClip[column].w;
+  }
+  return shifted;
+}
+
+// Without a shift, x and y of clip space are the parts of a ray along two rows of the projection, which stand
+// on each other and on the view.
 PictureRays raysOf(const View& view) {
-  const vec3 x(glm::row(view.worldToClip, 0)), y(glm::row(view.worldToClip, 1));
-  return {view.forward, x / dot(x, x), y / dot(y, y)};
+  const vec3 x = vec3(glm::row(view.worldToClip, 0)) - view.shift.x * view.forward;
+  const vec3 y = vec3(glm::row(view.worldToClip, 1)) - view.shift.y * view.forward;
+  const vec3 right = x / dot(x, x), down = y / dot(y, y);
+  return {view.forward - view.shift.x * right - view.shift.y * down, right, down};
 }
 
 gpu::Region regionOf(const View& view, uvec2 size, const std::array<vec3, 8>& corners) {

@@ -16,6 +16,7 @@ struct View {
   vec3 forward;      // unit
   float nearest;     // m
   float pixelAngle;  // radians between neighboring pixels, in the middle of the picture
+  vec2 shift{0};     // in clip space, of what is seen: 0 where pixels are seen by their middles
 };
 
 // The upward direction of a camera that looks along `forward` (unit); not necessarily perpendicular to it.
@@ -24,6 +25,10 @@ vec3 uprightFor(const Camera& camera, vec3 forward);
 // The view of a camera. `size`: pixels. The far end is infinite; the near end is a ten-thousandth of the
 // distance to the target.
 View viewOf(const Camera& camera, uvec2 size);
+
+// The same view with each pixel seen at `place` (pixels, from its middle; x to the right, y down). `view` has
+// no shift.
+View viewAt(const View& view, vec2 place, uvec2 size);
 
 // The view ray at the place (x, y) of clip space has the direction middle + x * right + y * down, whose
 // component along the camera's axis is 1.

@@ -25,6 +25,7 @@ struct TechniqueContext {
   SceneTransport& transport;
   Stats& stats;  // a technique sets its own counts here, and does not change others
   Casters casters = Casters::all;
+  Progress* progress = nullptr;  // of `update`, by which it can be canceled; null: it cannot
 };
 
 // The parts of a scene that a preparation depends on and that a user may change.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/error.h"
 #include "geometry/shapes.h"
 #include "support/drawing.h"
 #include "support/gpu_fixture.h"
@@ -101,6 +102,26 @@ TEST_F(Frames, KeepWhatStandsStill) {
     for (const char* pass : {"shadow maps", "beams"}) EXPECT_EQ(has(second, pass), !keepsLight) << pass;
     EXPECT_TRUE(has(second, "composite"));
   }
+}
+
+// What was canceled leaves the picture as it was, and nothing in the frame after it.
+TEST_F(Frames, LeaveNothingBehindWhereTheyAreCanceled) {
+  const std::vector<Scene> scenes = moved();
+  const TechniqueSettings settings = settingsOf(defaultTechnique());
+  Progress progress;
+  Stats stats;
+  SceneTransport transport(scenes[0], transportOf(settings), progress);
+  const auto technique = makeTechnique({device(), settings, transport, stats, Casters::all, &progress});
+  Renderer renderer(device(), transport, {.size = kSize, .shadowMapSize = 256, .keepsLight = true},
+                    *technique);
+  renderer.render(scenes[0]);
+  const std::vector<uint8_t> before = renderer.picture().bytes;
+  progress.cancel();
+  EXPECT_THROW(renderer.render(scenes.back()), Interrupted);
+  EXPECT_EQ(renderer.picture().bytes, before);
+  progress.renew();
+  renderer.render(scenes.back());
+  EXPECT_EQ(renderer.picture().bytes, Kept(scenes.back(), defaultTechnique(), false).draw(scenes.back()));
 }
 
 }  // namespace

@@ -90,6 +90,14 @@ void Shafts::update(const Scene& scene, const View& view) {
   for (uint32_t i = 0; i <= lightCount_; ++i) write(i, i, first, 1);
 }
 
+void Shafts::look(const View& view) {
+  if (!image_) return;
+  const float pace = sight_.pace;
+  sight_ = airSight(view);
+  sight_.pace = pace;
+  for (uint32_t light = 0; light < lightCount_; ++light) write(light, light, planes_[light], 1);
+}
+
 void Shafts::write(uint32_t index, uint32_t light, const AirPlanes& planes, uint32_t stride) const {
   AirLight data{air_, sight_, planes, box_->of(light)};
   data.sight.stride = stride;

@@ -29,6 +29,8 @@ class Shafts {
 
   // The device must not be using anything of this object.
   void update(const Scene& scene, const View& view);
+  // Sees the same from another place within each pixel.
+  void look(const View& view);
 
   // The data for DirectLight::update.
   LightsInAir lightsInAir() const;

@@ -101,6 +101,7 @@ class AdaptiveBeams final : public TechniqueBase {
         transport_(context.transport),
         settings_(context.settings),
         stats_(context.stats),
+        progress_(context.progress ? *context.progress : ownProgress_),
         program_(gpu::createRasterProgram(device_, "adaptive beams", shaders::techniques_whole_picture_vert,
                                           shaders::techniques_adaptive_beams_landed_light_frag,
                                           {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}})),
@@ -124,6 +125,8 @@ class AdaptiveBeams final : public TechniqueBase {
   SceneTransport& transport_;
   const TechniqueSettings& settings_;
   Stats& stats_;
+  Progress ownProgress_;
+  Progress& progress_;
   gpu::Program program_;
   gpu::Sampler wordSampler_, tileSampler_;
   uvec2 pictureSize_{640, 480};
@@ -139,8 +142,7 @@ void AdaptiveBeams::update(GpuScene&) {
   const Scene& scene = transport_.scene();
   const Accuracy& accuracy = accuracyOf(settings_);
   const RayMeshSettings wanted = settingsOfPicture(scene, pictureSize_, settings_);
-  Progress progress;
-  traceWithin(accuracy, [&] { traceRayMesh(scene, transport_.rayScene(), wanted, progress, mesh_); });
+  traceWithin(accuracy, [&] { traceRayMesh(scene, transport_.rayScene(), wanted, progress_, mesh_); });
   light_.build(mesh_);
   stage();
   tell(mesh_, wanted.paths, accuracy, true, stats_);

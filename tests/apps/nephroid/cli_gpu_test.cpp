@@ -63,6 +63,25 @@ TEST_F(RenderCommand, TheSameCommandWritesTheSameBytes) {
   EXPECT_EQ(readAll(folder / "a.exr"), readAll(folder / "b.exr"));
 }
 
+TEST_F(RenderCommand, DrawsSixteenSamplesOrOneOfARepeatedFrame) {
+  const auto samplesIn = [&] {
+    return nlohmann::json::parse(readAll(folder / "stats.json"))["settings"]["samples"];
+  };
+  ASSERT_EQ(render({"-o", at("a.png"), "--stats", at("stats.json")}).status, 0);
+  EXPECT_EQ(samplesIn(), "16");
+  ASSERT_EQ(render({"-o", at("b.png"), "--samples", "16"}).status, 0);
+  EXPECT_EQ(readAll(folder / "a.png"), readAll(folder / "b.png"));
+  ASSERT_EQ(render({"-o", at("c.png"), "--repeat", "2", "--stats", at("stats.json")}).status, 0);
+  EXPECT_EQ(samplesIn(), "1");
+  ASSERT_EQ(render({"-o", at("d.png"), "--samples", "1"}).status, 0);
+  EXPECT_EQ(readAll(folder / "c.png"), readAll(folder / "d.png"));
+  EXPECT_NE(readAll(folder / "a.png"), readAll(folder / "c.png"));
+  ASSERT_EQ(render({"-o", at("c.png"), "--repeat", "2", "--samples", "16"}).status, 0);
+  EXPECT_EQ(readAll(folder / "c.png"), readAll(folder / "a.png"));
+  ASSERT_EQ(render({"-o", at("a.png"), "--frames", "0:1", "--stats", at("stats.json")}).status, 0);
+  EXPECT_EQ(samplesIn(), "16");
+}
+
 TEST_F(RenderCommand, NumbersItsFrames) {
   ASSERT_EQ(render({"-o", at("a.png"), "--frames", "3:4"}).status, 0);
   EXPECT_TRUE(std::filesystem::exists(folder / "a.0003.png"));

@@ -211,6 +211,8 @@ TEST_F(SceneCommand, WrongInputLeavesNothingBehind) {
   expectWrong(measure({"--sensor", "floor", "--time", "later"}), "--time");
   expectWrong(measure({"--sensor", "floor", "--time", "nan"}), "--time");
   expectWrong(measure({"--sensor", "floor", "--planse", "4"}), "did you mean '--planes'?");
+  for (const char* samples : {"0", "4097", "many"})
+    expectWrong({"render", at("scene.toml"), "-o", at("a.png"), "--samples", samples}, "1 to 4096");
   expectWrong(measure({}), "--sensor");
   expectWrong({"measure", at("broken.toml"), "--sensor", "floor", "-o", at("floor.exr")}, "broken.toml");
   expectWrong({"measure", at("none.toml"), "--sensor", "floor", "-o", at("floor.exr")}, "none.toml");

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <optional>
 
+#include "core/accuracy.h"
 #include "formats/load.h"
 
 namespace nephroid {
@@ -148,6 +149,35 @@ TEST_F(ViewSteps, GoesOnWhereItWasWhenItIsNoLongerMinimized) {
   EXPECT_EQ(largestDifference(viewer().picture(), before), 0u);
   glfwRestoreWindow(window);
   EXPECT_TRUE(stepUntil([&] { return largestDifference(viewer().picture(), before) > 0; }));
+}
+
+// A frame whose beams take long: the window goes on beside it, and what is canceled leaves the picture as it
+// was.
+TEST_F(ViewSteps, GoesOnBesideALongFrameThatCanBeCanceled) {
+  viewer_.reset();
+  options_.waitsForFrames = false;
+  viewer_ = std::make_unique<Viewer>(options_);
+  ASSERT_TRUE(stepUntil([&] { return true; }));
+  hands().drop(written("ball.toml", kBallInView));
+  ASSERT_TRUE(stepUntil([&] { return state().gathered == state().settings.samples.count; }));
+  const ByteImage before = viewer().shownPicture();
+  const PictureSettings usual = state().settings;
+
+  // Of a new stage: the settings become those of the picture again.
+  state().settings.technique.own.of<Accuracy>().error = 1e-6f;
+  ASSERT_TRUE(stepUntil([&] { return state().preparing && state().preparing->name == "Drawing"; }));
+  state().isPreparationCanceled = true;
+  ASSERT_TRUE(stepUntil([&] { return !state().preparing; }));
+  EXPECT_NE(state().message.text.find("Canceled"), std::string::npos) << state().message.text;
+  EXPECT_EQ(state().settings, usual);
+  for (int i = 0; i < 3; ++i) stepNow(viewer());
+  EXPECT_FALSE(state().preparing);
+  EXPECT_EQ(viewer().shownPicture().bytes, before.bytes);
+
+  // The stage goes on.
+  moveFirstLight(viewer());
+  EXPECT_TRUE(stepUntil([&] { return state().gathered > 0 && !state().preparing; }));
+  EXPECT_GT(largestDifference(viewer().shownPicture(), before), 0u);
 }
 
 TEST_F(ViewSteps, RecordsWhatIsSeenAsAVideo) {

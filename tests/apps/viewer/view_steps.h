@@ -120,6 +120,7 @@ class ViewSteps : public HiddenDisplayTest {
     before_ = fs::current_path();
     fs::current_path(folder_.path());
     options_.size = kSize;
+    options_.waitsForFrames = true;
     options_.settings.technique.transport.source = Source::traced;
     options_.settings.technique.own.of<PlaneSettings>().textureSize = 64;
     viewer_ = std::make_unique<Viewer>(options_);
@@ -160,12 +161,13 @@ class ViewSteps : public HiddenDisplayTest {
   }
 
   // What `nephroid render` makes of a file.
-  ByteImage rendered(const fs::path& scene, const std::string& time = "0") const {
+  ByteImage rendered(const fs::path& scene, const std::string& time = "0", uint32_t samples = 1) const {
     const uvec2 size = kSize;
-    const ProgramResult result = runProgram(
-        {"render", scene.string(), "--source", "traced", "--texture-size", "64", "--time", time, "--size",
-         std::to_string(size.x) + "x" + std::to_string(size.y), "-o", (folder_ / "render.png").string()},
-        "-u NEPHROID_VALIDATION");
+    const ProgramResult result =
+        runProgram({"render", scene.string(), "--source", "traced", "--texture-size", "64", "--time", time,
+                    "--size", std::to_string(size.x) + "x" + std::to_string(size.y), "--samples",
+                    std::to_string(samples), "-o", (folder_ / "render.png").string()},
+                   "-u NEPHROID_VALIDATION");
     EXPECT_EQ(result.status, 0) << result.errors;
     return readPng(folder_ / "render.png");
   }

@@ -116,6 +116,40 @@ TEST_F(ViewSteps, OpensEachSceneAndItsPictureFollowsTheLight) {
   EXPECT_GT(opened, 30u);
 }
 
+// At rest samples come one in each frame until all are there, and none is kept when something changes.
+TEST_F(ViewSteps, GathersSamplesAtRestAndForgetsThemWhenSomethingChanges) {
+  const fs::path file = written("ball.toml", kBallInView);
+  state().settings.samples.count = 20;
+  ASSERT_TRUE(opens(file));
+  moveFirstLight(viewer());
+  EXPECT_EQ(state().gathered, 0u);
+  EXPECT_GT(largestDifference(viewer().shownPicture(), viewer().picture()), 0u);
+  for (uint32_t i = 1; i <= 20; ++i) {
+    stepNow(viewer());
+    EXPECT_EQ(state().gathered, i);
+  }
+  const ByteImage whole = viewer().shownPicture();
+  for (int i = 0; i < 3; ++i) stepNow(viewer());
+  EXPECT_EQ(state().gathered, 20u);
+  EXPECT_EQ(viewer().shownPicture().bytes, whole.bytes);
+  ASSERT_TRUE(viewer().save());
+  EXPECT_LE(largestDifference(whole, rendered(file, "0", 20)), 1u);
+
+  hands().drag({70, 60}, {50, 55});
+  EXPECT_EQ(state().gathered, 0u);
+  ASSERT_TRUE(stepUntil([&] { return state().gathered == 20; }));
+  hands().key(GLFW_KEY_7);  // of a pass's output there is one sample
+  for (int i = 0; i < 3; ++i) stepNow(viewer());
+  hands().key(GLFW_KEY_0);
+  state().settings.samples.count = 3;
+  stepNow(viewer());
+  EXPECT_EQ(state().gathered, 0u);
+  ASSERT_TRUE(stepUntil([&] { return state().gathered == 3; }));
+  state().settings.samples.count = 1;
+  for (int i = 0; i < 3; ++i) stepNow(viewer());
+  EXPECT_EQ(state().gathered, 0u);
+}
+
 TEST_F(ViewSteps, WhatIsDroppedIsOpenedOrAddedOrTheWindowSaysWhyNot) {
   state().settings.technique.technique = "none";
   ASSERT_TRUE(opens(written("ball.toml", kBallInView)));

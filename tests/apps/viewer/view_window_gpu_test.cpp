@@ -23,9 +23,9 @@ constexpr uvec2 kSize{160, 120};
 constexpr float kPanelWidth = 330;
 
 // Tables and volumes are small here: what is looked at is the viewer.
-const std::vector<std::string> kQuick{"--texture-size",        "64",     "--directions",     "9",
-                                      "--light-level",         "0",      "--volume-photons", "1",
-                                      "--light-interpolation", "nearest"};
+const std::vector<std::string> kQuick{"--texture-size",        "64",      "--directions",     "9",
+                                      "--light-level",         "0",       "--volume-photons", "1",
+                                      "--light-interpolation", "nearest", "--samples",        "4"};
 
 class ViewWindow : public HiddenDisplayTest {
  protected:
