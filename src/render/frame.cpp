@@ -66,7 +66,9 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       programs_(createFramePrograms(
           device, {hasEmission(transport.scene()), transport.scene().medium.has_value(), hasTurbidWater_})),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
+      isByRays_(settings.sight.method == SightMethod::rays && !technique.traits().coversSquares),
       sight_(device, settings.sight),
+      raySight_(device),
       directLight_(device, transport.scene(), shadowMapSizeOf(settings)),
       shafts_(device, transport.scene(), settings.size, settings.shafts) {
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
@@ -89,7 +91,12 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
   onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_, shafts_.lightsInAir()); });
   if (remade.beams) onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
   if (remade.sight)
-    onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
+    onHost(passes, "sight", [&] {
+      if (isByRays_)
+        raySight_.update(transport_, view_, settings_.size, extents_);
+      else
+        sight_.update(transport_, view_, settings_.size, extents_);
+    });
   ensureImages();
 
   drawFrame(remade, passes);
@@ -146,7 +153,10 @@ void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
     if (shafts_) commands.pass("depths of the air", [&] { shafts_.recordDepths(commands); });
     if (remade.sight) {
       commands.pass("receivers", [&] { drawReceivers(commands); });
-      sight_.record(commands, gpuScene_, images_);
+      if (isByRays_)
+        raySight_.record(commands, images_);
+      else
+        sight_.record(commands, gpuScene_, images_);
     }
     if (!shafts_) illuminate(commands);
   });
@@ -179,11 +189,16 @@ void Renderer::illuminate(gpu::CommandList& commands) {
     commands.clear(images_.wayStart, vec4(0));
     commands.clear(images_.scattered, vec4(0));
   }
-  light(commands, images_.seen[kSeen], std::nullopt);
-  if (sight_.reflects()) light(commands, images_.seen[kSeenReflected], sight_.region());
+  const auto lightSeen = [&](uint32_t which, const std::optional<gpu::Region>& region) {
+    const SeenImages& seen = images_.seen[which];
+    light(commands, {&seen.position, &seen.normal, region}, seen.directLux, seen.causticsLux);
+  };
+  lightSeen(kSeen, std::nullopt);
+  if (isByRays_ && raySight_.hasPoints())
+    light(commands, raySight_.points(), raySight_.directLux(), raySight_.causticsLux());
+  if (sight_.reflects()) lightSeen(kSeenReflected, sight_.region());
   if (sight_.disperses())
-    for (const uint32_t channel : {kSeenGreen, kSeenBlue})
-      light(commands, images_.seen[channel], sight_.region());
+    for (const uint32_t channel : {kSeenGreen, kSeenBlue}) lightSeen(channel, sight_.region());
   for (const WaterInSight& water : sight_.waters()) {
     commands.pass("ways in water", [&] {
       sight_.recordWays(commands, water, images_, images_.wayStart, images_.wayDirection);
@@ -195,14 +210,13 @@ void Renderer::illuminate(gpu::CommandList& commands) {
   commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}); });
 }
 
-void Renderer::light(gpu::CommandList& commands, const SeenImages& seen,
-                     const std::optional<gpu::Region>& region) {
-  const ReceiverPoints points{&seen.position, &seen.normal, region};
+void Renderer::light(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& directLux,
+                     const gpu::Image& causticsLux) {
   commands.pass("direct light", [&] {
-    clearRegion(commands, seen.causticsLux, region);
-    directLight_.record(commands, gpuScene_, points, seen.directLux);
+    clearRegion(commands, causticsLux, points.region);
+    directLight_.record(commands, gpuScene_, points, directLux);
   });
-  technique_.shade(commands, points, seen.causticsLux);
+  technique_.shade(commands, points, causticsLux);
 }
 
 // Everywhere as if there were no casters, then again where there may be.
@@ -230,15 +244,20 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
                      {"transmittance", ofEach(&SeenImages::transmittance)},
                      {"directLux", ofEach(&SeenImages::directLux)},
                      {"causticsLux", ofEach(&SeenImages::causticsLux)},
+                     {"sightRest", raySight_.rest()},
+                     {"sightRanges", raySight_.ranges()},
+                     {"pointFactors", raySight_.factors()},
+                     {"pointDirectLux", raySight_.directLux()},
+                     {"pointCausticsLux", raySight_.causticsLux()},
                      {"shafts", shafts_ ? shafts_.image() : seen.albedo},
                      {"wayStart", hasTurbidWater_ ? images_.wayStart : seen.albedo},
                      {"scattered", hasTurbidWater_ ? images_.scattered : seen.albedo}});
     });
   };
   draw({}, {{0, 0}, settings_.size});
-  if (sight_.region().size.x == 0) return;
+  if (casterRegion().size.x == 0) return;
   commands.barrier();
-  draw({true, sight_.reflects() || sight_.disperses(), sight_.disperses()}, sight_.region());
+  draw({true, sight_.reflects() || sight_.disperses(), sight_.disperses(), isByRays_}, casterRegion());
 }
 
 }  // namespace nephroid

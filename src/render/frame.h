@@ -9,6 +9,7 @@
 #include "render/frame_resources.h"
 #include "render/last_scene.h"
 #include "render/settings.h"
+#include "render/sight/rays/ray_sight.h"
 #include "render/sight/sight_pass.h"
 #include "render/view.h"
 #include "techniques/technique.h"
@@ -65,7 +66,10 @@ class Renderer {
   void drawFrame(const Remade& remade, std::vector<PassTime>& passes);
   void drawReceivers(gpu::CommandList& commands);
   void illuminate(gpu::CommandList& commands);
-  void light(gpu::CommandList& commands, const SeenImages& seen, const std::optional<gpu::Region>& region);
+  void light(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& directLux,
+             const gpu::Image& causticsLux);
+  // The region of the picture that holds all casters.
+  const gpu::Region& casterRegion() const { return isByRays_ ? raySight_.region() : sight_.region(); }
   void composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
                  const std::vector<const gpu::Image*>& targets);
   void ensureImages();
@@ -79,7 +83,9 @@ class Renderer {
   GpuScene gpuScene_;
   FramePrograms programs_;
   FrameImages images_;
+  bool isByRays_ = false;  // the view through casters; otherwise by slices
   SightPass sight_;
+  RaySight raySight_;
   DirectLight directLight_;
   Shafts shafts_;
 

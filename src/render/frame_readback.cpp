@@ -37,9 +37,10 @@ std::vector<PassOutput> Renderer::outputs() const {
                          {"receivers", "normals", &seen.normal, kShowDirection},
                          {"receivers", "positions", &seen.position, kShowPlace},
                          {"receivers", "depth", &images_.depth, kShowNearness}});
+  if (casterRegion().size.x > 0)
+    all.push_back({"casters", "normals", &images_.casterNormal, kShowDirection});
   if (sight_.region().size.x > 0)
-    all.insert(all.end(), {{"casters", "normals", &images_.casterNormal, kShowDirection},
-                           {"seen through casters", "transmittance", &seen.transmittance, kShowFactor}});
+    all.push_back({"seen through casters", "transmittance", &seen.transmittance, kShowFactor});
   if (sight_.reflects())
     all.insert(all.end(),
                {{"reflected by casters", "albedo", &images_.seen[kSeenReflected].albedo, kShowFactor},
@@ -80,7 +81,7 @@ Image Renderer::layers() {
 
   auto normals = gpu::download<vec4>(device_, images_.seen[kSeen].normal);
   const auto casterNormals = gpu::download<vec4>(device_, images_.casterNormal);
-  const gpu::Region& region = sight_.region();
+  const gpu::Region& region = casterRegion();
   const uvec2 first(region.corner);
   for (uint32_t y = first.y; y < first.y + region.size.y; ++y)
     for (uint32_t x = first.x; x < first.x + region.size.x; ++x) {

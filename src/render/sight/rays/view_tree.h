@@ -1,0 +1,77 @@
+// Follows view rays through casters as trees: at each boundary what is refracted and what is reflected,
+// outside, inside and totally, as far as it can be seen.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "trace/media.h"
+
+namespace nephroid {
+
+// The receiver at the end of one of a view ray's ways. World space.
+struct SightEnd {
+  vec3 position{0};  // m
+  vec3 normal{0};    // unit, on the side that is seen
+  vec3 weight{0};    // the part of its radiance that comes to the eye
+  vec2 texcoord{0};
+  uint32_t object = 0;
+  uint32_t ways = 0;  // equal where the same smooth surfaces lie on the way, and at its end
+};
+
+// All that one view ray shows.
+struct SightTree {
+  uint32_t first = 0, count = 0;  // its ends, in an order that ways alone decide
+  vec3 background{0};             // weight of the ways that meet nothing
+  uint32_t ways = 0;              // equal for trees that have the same ways
+};
+
+// How far trees are followed.
+struct TreeLimits {
+  float leastWeight = 1e-3f;  // of a way; weaker ones are left out
+};
+
+struct SightTrees {
+  std::vector<SightTree> trees;
+  std::vector<SightEnd> ends;
+  double leftOut = 0;  // sum of the weights of ways that were too weak
+  double lost = 0;     // the same of those that met too many boundaries, or leaked out of a closed mesh
+  uint64_t rays = 0;   // traced
+};
+
+inline float largestChannel(vec3 v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+// `materials`: of the objects. All must outlive it.
+class ViewTracer {
+ public:
+  ViewTracer(const Scene& scene, const RayScene& rays, std::span<const Material* const> materials,
+             const TreeLimits& limits);
+
+  // A tree for each ray; they begin inside `media`, and should be near each other. Replaces what is in
+  // `result`. Several threads may trace at the same time.
+  void trace(std::span<const Ray> rays, const MediumStack& media, SightTrees& result) const;
+
+ private:
+  struct Branch;
+  struct Work;
+  void meet(const Branch& branch, const Hit& hit, Work& work) const;
+  void meetReceiver(const Branch& branch, const Hit& hit, Work& work) const;
+  void meetMirror(const Branch& branch, const Hit& hit, Work& work) const;
+  void meetThinWall(const Branch& branch, const Hit& hit, Work& work) const;
+  void meetDielectric(const Branch& branch, const Hit& hit, Work& work) const;
+  void refract(const Branch& branch, const Hit& hit, const MediaSides& sides, uint32_t channels,
+               vec3& reflected, Work& work) const;
+  void goOn(Branch branch, const Hit& hit, vec3 direction, std::vector<Branch>& next, Work& work) const;
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const std::span<const Material* const> materials_;
+  const TreeLimits limits_;
+  std::vector<vec3> extinctions_;  // 1/m, of the objects
+};
+
+}  // namespace nephroid
