@@ -68,7 +68,8 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
       isByRays_(settings.sight.method == SightMethod::rays && !technique.traits().coversSquares),
       sight_(device, settings.sight),
-      raySight_(device),
+      raySight_(device, hasTurbidWater_),
+      waysInWater_(device, isByRays_),
       directLight_(device, transport.scene(), shadowMapSizeOf(settings)),
       shafts_(device, transport.scene(), settings.size, settings.shafts) {
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
@@ -96,6 +97,7 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
         raySight_.update(transport_, view_, settings_.size, extents_);
       else
         sight_.update(transport_, view_, settings_.size, extents_);
+      waysInWater_.update(transport_, view_, settings_.size, extents_, casterRegion());
     });
   ensureImages();
 
@@ -199,9 +201,10 @@ void Renderer::illuminate(gpu::CommandList& commands) {
   if (sight_.reflects()) lightSeen(kSeenReflected, sight_.region());
   if (sight_.disperses())
     for (const uint32_t channel : {kSeenGreen, kSeenBlue}) lightSeen(channel, sight_.region());
-  for (const WaterInSight& water : sight_.waters()) {
+  const CasterImages casters = isByRays_ ? raySight_.casterImages() : sight_.casterImages();
+  for (const WaterInSight& water : waysInWater_.waters()) {
     commands.pass("ways in water", [&] {
-      sight_.recordWays(commands, water, images_, images_.wayStart, images_.wayDirection);
+      waysInWater_.record(commands, water, images_, casters, images_.wayStart, images_.wayDirection);
     });
     technique_.scatter(commands, {&images_.wayStart, &images_.wayDirection, water.object}, images_.scattered);
   }
@@ -229,8 +232,6 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
     for (const SeenImages& one : images_.seen) all.push_back(one.position ? &(one.*image) : &(seen.*image));
     return all;
   };
-  const bool isEyeInWater = !sight_.waters().empty() && sight_.waters().back().constants.kind == kWayFromEye;
-  const vec3 extinctionAtEye = isEyeInWater ? sight_.waters().back().extinction : vec3(0);
   const auto draw = [&](const CasterTraits& traits, const gpu::Region& region) {
     gpu::RenderTargets rendered;
     for (const gpu::Image* target : targets) rendered.colors.push_back({target, 0, std::nullopt});
@@ -238,7 +239,7 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
     commands.render(rendered, [&] {
       commands.draw(programs.at(traits), 3, 1,
                     CompositeConstants{gpuScene_.materials(), environment_.ambient, environment_.background,
-                                       exposure_, extinctionAtEye},
+                                       exposure_, waysInWater_.extinctionAtEye()},
                     {{"normal", ofEach(&SeenImages::normal)},
                      {"albedo", ofEach(&SeenImages::albedo)},
                      {"transmittance", ofEach(&SeenImages::transmittance)},

@@ -11,6 +11,7 @@
 #include "render/settings.h"
 #include "render/sight/rays/ray_sight.h"
 #include "render/sight/sight_pass.h"
+#include "render/sight/ways_in_water.h"
 #include "render/view.h"
 #include "techniques/technique.h"
 #include "transport/scene_transport.h"
@@ -86,6 +87,7 @@ class Renderer {
   bool isByRays_ = false;  // the view through casters; otherwise by slices
   SightPass sight_;
   RaySight raySight_;
+  WaysInWater waysInWater_;
   DirectLight directLight_;
   Shafts shafts_;
 

@@ -14,8 +14,9 @@ constexpr VkFormat kRanges = VK_FORMAT_R32G32_UINT;
 
 }  // namespace
 
-RaySight::RaySight(gpu::Device& device)
+RaySight::RaySight(gpu::Device& device, bool hasTurbidWater)
     : device_(device),
+      hasTurbidWater_(hasTurbidWater),
       program_(gpu::createRasterProgram(device, "casters' pixels", shaders::techniques_whole_picture_vert,
                                         shaders::render_sight_rays_caster_pixels_frag,
                                         {.colors = {{kFormat}, {kFormat}},
@@ -35,11 +36,14 @@ void RaySight::update(SceneTransport& transport, const View& view, uvec2 picture
     if (region.size.x > 0) regions.push_back(region);
   }
   const std::vector<const Material*> materials = materialsOf(scene);
-  RaySightInput input{scene, transport.rayScene(), materials, view, {}, pictureSize, regions, {}, true};
+  RaySightInput input{scene, transport.rayScene(), materials, view, {}, pictureSize, regions};
+  input.trees.tellsWaysBeyond = hasTurbidWater_;
   input.media = mediaAround(transport.rayScene(), materials, view.eye);
   seeByRays(input, seen_);
+  // The points' last row is full.
+  for (std::vector<vec4>* list : {&seen_.positions, &seen_.normals, &seen_.factors})
+    list->resize(std::size_t(rows()) * kPointsInRow, vec4(0));
   ensureImages(pictureSize);
-  upload();
 }
 
 uint32_t RaySight::rows() const {
@@ -58,6 +62,11 @@ void RaySight::ensureImages(uvec2 pictureSize) {
     };
     rest_ = picture("what casters show by no light", kFormat);
     ranges_ = picture("ranges of points of sight", kRanges);
+    if (hasTurbidWater_) {
+      casterPositions_ = picture("casters' positions", kFormat);
+      exits_ = picture("ways beyond casters' surfaces", kFormat);
+      directions_ = picture("directions beyond casters' surfaces", kFormat);
+    }
   }
   if (positions_ && positions_.height() >= rows()) return;
   // Half as many more, so that a list that grows a little is not made anew in each frame.
@@ -72,38 +81,42 @@ void RaySight::ensureImages(uvec2 pictureSize) {
   causticsLux_ = points("caustics lux of sight");
 }
 
-// In the order in which `record` copies it.
-void RaySight::upload() {
-  // The points' last row is full.
-  for (std::vector<vec4>* list : {&seen_.positions, &seen_.normals, &seen_.factors})
-    list->resize(std::size_t(rows()) * kPointsInRow, vec4(0));
-  const std::size_t pixels = seen_.rest.size(), points = seen_.positions.size();
-  gpu::ensureBuffer(device_, staging_, "sight by rays",
-                    pixels * (2 * sizeof(vec4) + sizeof(uvec2)) + points * 3 * sizeof(vec4),
-                    gpu::MemoryKind::upload);
-  VkDeviceSize at = 0;
-  for (const std::vector<vec4>* list :
-       {&seen_.casterNormals, &seen_.rest, &seen_.positions, &seen_.normals, &seen_.factors}) {
-    staging_.write(*list, at);
-    at += list->size() * sizeof(vec4);
-  }
-  staging_.write(seen_.ranges, at);
+CasterImages RaySight::casterImages() const {
+  if (seen_.region.size.x == 0) return {};
+  return {&casterPositions_, &exits_, &directions_};
+}
+
+// What `record` copies to an image, one after the other.
+std::vector<RaySight::Copied> RaySight::copied(const FrameImages& images) const {
+  std::vector<Copied> all{{std::as_bytes(std::span(seen_.casterNormals)), &images.casterNormal, seen_.region},
+                          {std::as_bytes(std::span(seen_.rest)), &rest_, seen_.region}};
+  if (hasTurbidWater_)
+    all.insert(all.end(), {{std::as_bytes(std::span(seen_.casterPositions)), &casterPositions_, seen_.region},
+                           {std::as_bytes(std::span(seen_.exits)), &exits_, seen_.region},
+                           {std::as_bytes(std::span(seen_.directions)), &directions_, seen_.region}});
+  if (hasPoints())
+    all.insert(all.end(), {{std::as_bytes(std::span(seen_.positions)), &positions_, *points().region},
+                           {std::as_bytes(std::span(seen_.normals)), &normals_, *points().region},
+                           {std::as_bytes(std::span(seen_.factors)), &factors_, *points().region}});
+  // Last, as it is aligned to less.
+  all.push_back({std::as_bytes(std::span(seen_.ranges)), &ranges_, seen_.region});
+  return all;
 }
 
 void RaySight::record(gpu::CommandList& commands, const FrameImages& images) {
   const gpu::Region& region = seen_.region;
   if (region.size.x == 0) return;
+  const std::vector<Copied> all = copied(images);
+  VkDeviceSize bytes = 0;
+  for (const Copied& one : all) bytes += one.bytes.size();
+  gpu::ensureBuffer(device_, staging_, "sight by rays", bytes, gpu::MemoryKind::upload);
   commands.pass("casters", [&] {
     VkDeviceSize at = 0;
-    for (const gpu::Image* image : {&images.casterNormal, static_cast<const gpu::Image*>(&rest_)}) {
-      commands.copy(staging_, at, *image, region);
-      at += seen_.rest.size() * sizeof(vec4);
+    for (const Copied& one : all) {
+      staging_.writeBytes(one.bytes, at);
+      commands.copy(staging_, at, *one.image, one.region);
+      at += one.bytes.size();
     }
-    for (const gpu::Image* image : {&positions_, &normals_, &factors_}) {
-      if (hasPoints()) commands.copy(staging_, at, *image, *points().region);
-      at += seen_.positions.size() * sizeof(vec4);
-    }
-    commands.copy(staging_, at, ranges_, region);
     commands.barrier();
     commands.render({.colors = {{&images.seen[kSeen].position, 0, std::nullopt},
                                 {&images.seen[kSeen].albedo, 0, std::nullopt}},

@@ -8,6 +8,7 @@
 #include "render/frame_resources.h"
 #include "render/shadow_maps.h"
 #include "render/sight/rays/seen_by_rays.h"
+#include "render/sight/ways_in_water.h"
 #include "render/view.h"
 #include "techniques/technique.h"
 #include "transport/scene_transport.h"
@@ -18,7 +19,8 @@ namespace nephroid {
 class RaySight {
  public:
   // The device outlives it.
-  explicit RaySight(gpu::Device& device);
+  // `hasTurbidWater`: the scene has water that absorbs or scatters.
+  RaySight(gpu::Device& device, bool hasTurbidWater);
 
   // The host's work, for the scene in which `transport` was placed. `extents`: of its meshes. The device must
   // not be using anything of this object.
@@ -38,6 +40,9 @@ class RaySight {
   const gpu::Image& directLux() const { return directLux_; }
   const gpu::Image& causticsLux() const { return causticsLux_; }
 
+  // For the ways in turbid water.
+  CasterImages casterImages() const;
+
   // Of the pixels and points, as luminance.glsl.h has them.
   const gpu::Image& rest() const { return rest_; }
   const gpu::Image& ranges() const { return ranges_; }
@@ -46,14 +51,21 @@ class RaySight {
  private:
   uint32_t rows() const;
   void ensureImages(uvec2 pictureSize);
-  void upload();
+  struct Copied {
+    std::span<const std::byte> bytes;
+    const gpu::Image* image;
+    gpu::Region region;
+  };
+  std::vector<Copied> copied(const FrameImages& images) const;
 
   gpu::Device& device_;
+  bool hasTurbidWater_;
   gpu::Program program_;
   SeenByRays seen_;
   gpu::Buffer staging_;
   // Of the picture's size.
   gpu::Image rest_, ranges_;
+  gpu::Image casterPositions_, exits_, directions_;  // with turbid water
   // Of the points, kPointsInRow in a row.
   gpu::Image positions_, normals_, factors_, directLux_, causticsLux_;
 };

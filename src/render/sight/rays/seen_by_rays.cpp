@@ -57,7 +57,7 @@ class PixelTrees {
   PixelTrees(const RaySightInput& input, SeenByRays& seen)
       : in_(input),
         out_(seen),
-        tracer_(input.scene, input.rays, input.materials, input.limits),
+        tracer_(input.scene, input.rays, input.materials, input.trees),
         pictureRays_(raysOf(input.view)) {}
 
   void run() {
@@ -90,6 +90,9 @@ class PixelTrees {
     out_.casterNormals.assign(pixels, vec4(0));
     out_.rest.assign(pixels, vec4(0));
     out_.ranges.assign(pixels, uvec2(0));
+    if (in_.trees.tellsWaysBeyond)
+      for (std::vector<vec4>* list : {&out_.casterPositions, &out_.exits, &out_.directions})
+        list->assign(pixels, vec4(0));
     isInTile_.assign(std::size_t(tiles_.x) * tiles_.y, 0);
     for (const gpu::Region& one : in_.casterRegions) {
       if (one.size.x == 0) continue;
@@ -140,6 +143,8 @@ class PixelTrees {
     const std::size_t pixel = pixelOf(place);
     out_.casterNormals[pixel] = isOutside ? vec4(hit.normal, 1) : vec4(-hit.normal, -1);
     out_.rest[pixel].a = depth;
+    if (in_.trees.tellsWaysBeyond)
+      out_.casterPositions[pixel] = vec4(ray.origin + hit.distance * ray.direction, float(hit.object + 1));
   }
 
   bool isPixel(uvec2 place) const { return place.x < out_.region.size.x && place.y < out_.region.size.y; }
@@ -238,6 +243,11 @@ class PixelTrees {
     return chunk.ends.data() + treeAt(place)->first;
   }
 
+  const WayBeyond& wayBeyondAt(uvec2 place) const {
+    const uint32_t tree = treeOf_[indexOf(place)];
+    return chunks_[tree / kChunk].waysBeyond[tree % kChunk];
+  }
+
   Blend blendIn(uvec2 cell, vec2 place) const {
     Blend blend;
     std::size_t i = 0;
@@ -332,6 +342,27 @@ class PixelTrees {
       for (uint32_t i = 0; i < range.y; ++i) rest += writePoint(range.x + i, ends[i]);
     }
     out_.rest[pixel] = vec4(rest, out_.rest[pixel].a);
+    if (in_.trees.tellsWaysBeyond) writeWayBeyond(place);
+  }
+
+  void writeWayBeyond(uvec2 place) {
+    WayBeyond way;
+    const auto add = [&](uvec2 tree, float part) {
+      const WayBeyond& one = wayBeyondAt(tree);
+      way.start += part * one.start;
+      way.direction += part * one.direction;
+      way.length += part * one.length;
+    };
+    if (isBetween(place)) {
+      const vec4 parts = partsAt(vec2(place % kCell) / float(kCell));
+      int corner = 0;
+      for (const uvec2 at : cornersOf(place / kCell)) add(at, parts[corner++]);
+    } else {
+      add(place, 1);
+    }
+    const std::size_t pixel = pixelOf(place);
+    out_.exits[pixel] = vec4(way.start, std::min(way.length, std::numeric_limits<float>::max()));
+    out_.directions[pixel] = vec4(way.direction, 0);
   }
 
   // Returns what it adds to the pixel (nit) by no light.

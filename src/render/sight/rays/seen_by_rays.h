@@ -18,7 +18,7 @@ struct RaySightInput {
   MediumStack media;  // around the eye
   uvec2 size{0};      // pixels of the picture
   std::span<const gpu::Region> casterRegions;  // outside all of these no pixel shows a caster
-  TreeLimits limits{};
+  TreeSettings trees{};
   bool interpolates = true;  // where neighbors agree; otherwise each pixel is traced
 };
 
@@ -39,6 +39,9 @@ struct SeenByRays {
   // depth as in the depth image, 0 where there is no caster.
   std::vector<vec4> rest;
   std::vector<uvec2> ranges;  // the first of the pixel's points, and their number
+  // With trees.tellsWaysBeyond, of the pixels: where their ray meets the caster (m; a = its object + 1, 0
+  // where there is none); and the way beyond: its start (m; a = its length) and direction.
+  std::vector<vec4> casterPositions, exits, directions;
   // Of the points:
   std::vector<vec4> positions;  // m; a = 1
   std::vector<vec4> normals;    // unit, on the side that is seen

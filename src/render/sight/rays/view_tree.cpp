@@ -42,6 +42,7 @@ struct ViewTracer::Branch {
   uint32_t tree = 0;
   uint32_t ways = 2166136261u;
   uint32_t crossings = 0;
+  bool isBeyond = false;  // it is on the way after the first boundary
   uint32_t channels = kAllChannels;  // bit c: it carries channel c
   MediumStack media;
 };
@@ -57,8 +58,8 @@ struct ViewTracer::Work {
 };
 
 ViewTracer::ViewTracer(const Scene& scene, const RayScene& rays, std::span<const Material* const> materials,
-                       const TreeLimits& limits)
-    : scene_(scene), rays_(rays), materials_(materials), limits_(limits) {
+                       const TreeSettings& settings)
+    : scene_(scene), rays_(rays), materials_(materials), settings_(settings) {
   for (const Material* material : materials_) extinctions_.push_back(extinctionOf(*material));
 }
 
@@ -66,6 +67,7 @@ void ViewTracer::trace(std::span<const Ray> rays, const MediumStack& media, Sigh
   thread_local Work work;
   result = {};
   result.trees.resize(rays.size());
+  if (settings_.tellsWaysBeyond) result.waysBeyond.resize(rays.size());
   work.result = &result;
   work.wave.clear();
   work.ends.clear();
@@ -104,6 +106,11 @@ void ViewTracer::trace(std::span<const Ray> rays, const MediumStack& media, Sigh
 void ViewTracer::meet(const Branch& arriving, const Hit& hit, Work& work) const {
   SightTree& tree = work.result->trees[arriving.tree];
   Branch branch = arriving;
+  if (branch.isBeyond) {
+    const float length = hit.object == kNone ? std::numeric_limits<float>::infinity() : hit.distance;
+    work.result->waysBeyond[branch.tree] = {branch.ray.origin, branch.ray.direction, length};
+    branch.isBeyond = false;
+  }
   const uint32_t medium = branch.media.top();
   if (hit.object == kNone) {
     tree.ways = extended(tree.ways, extended(branch.ways, uint32_t(Event::missed)));
@@ -196,9 +203,15 @@ void ViewTracer::meetDielectric(const Branch& branch, const Hit& hit, Work& work
   Branch on = branch;
   on.media = sides.before;
   on.weight = reflected;
+  on.isBeyond = isFirst(branch) && reflected == branch.weight;
   on.ways = extended(branch.ways, hit, Event::reflected);
   if (reflection.isFlat) on.ways = extendedByTriangle(on.ways, hit);
   goOn(on, hit, reflection.direction, work.reflected, work);
+}
+
+// Whether it is at its first boundary, and the way beyond is asked for.
+bool ViewTracer::isFirst(const Branch& branch) const {
+  return settings_.tellsWaysBeyond && branch.crossings == 1;
 }
 
 // Sends on what is transmitted in these channels, which have one index of refraction, and adds what is not
@@ -218,6 +231,7 @@ void ViewTracer::refract(const Branch& branch, const Hit& hit, const MediaSides&
   on.channels = channels;
   on.weight = weight * ((1 - bend.reflectance) * eta * eta);
   on.gain *= eta * eta;
+  on.isBeyond = isFirst(branch) && channel == 0;
   const bool enters = dot(direction, hit.geometricNormal) < 0;
   on.ways = extended(extended(branch.ways, hit, enters ? Event::entered : Event::left), channels);
   if (bend.isFlat) on.ways = extendedByTriangle(on.ways, hit);
@@ -228,7 +242,7 @@ void ViewTracer::goOn(Branch branch, const Hit& hit, vec3 direction, std::vector
                       Work& work) const {
   const float weight = largestChannel(branch.weight);
   // What has entered a denser medium may leave it again, and then weighs what it did before.
-  if (weight < limits_.leastWeight * std::min(branch.gain, 1.0f)) {
+  if (weight < settings_.leastWeight * std::min(branch.gain, 1.0f)) {
     work.result->leftOut += double(weight);
     return;
   }

@@ -28,14 +28,24 @@ struct SightTree {
   uint32_t ways = 0;              // equal for trees that have the same ways
 };
 
-// How far trees are followed.
-struct TreeLimits {
-  float leastWeight = 1e-3f;  // of a way; weaker ones are left out
+// The straight way of a view ray after its first boundary: what is transmitted there, or, where nothing is,
+// what is reflected.
+struct WayBeyond {
+  vec3 start{0};      // m
+  vec3 direction{0};  // unit
+  float length = 0;   // m; infinite where nothing is met
+};
+
+// How trees are followed.
+struct TreeSettings {
+  float leastWeight = 2e-3f;  // of a way; weaker ones are left out
+  bool tellsWaysBeyond = false;
 };
 
 struct SightTrees {
   std::vector<SightTree> trees;
   std::vector<SightEnd> ends;
+  std::vector<WayBeyond> waysBeyond;  // of the trees, where they are asked for
   double leftOut = 0;  // sum of the weights of ways that were too weak
   double lost = 0;     // the same of those that met too many boundaries, or leaked out of a closed mesh
   uint64_t rays = 0;   // traced
@@ -49,7 +59,7 @@ inline float largestChannel(vec3 v) {
 class ViewTracer {
  public:
   ViewTracer(const Scene& scene, const RayScene& rays, std::span<const Material* const> materials,
-             const TreeLimits& limits);
+             const TreeSettings& settings);
 
   // A tree for each ray; they begin inside `media`, and should be near each other. Replaces what is in
   // `result`. Several threads may trace at the same time.
@@ -65,12 +75,13 @@ class ViewTracer {
   void meetDielectric(const Branch& branch, const Hit& hit, Work& work) const;
   void refract(const Branch& branch, const Hit& hit, const MediaSides& sides, uint32_t channels,
                vec3& reflected, Work& work) const;
+  bool isFirst(const Branch& branch) const;
   void goOn(Branch branch, const Hit& hit, vec3 direction, std::vector<Branch>& next, Work& work) const;
 
   const Scene& scene_;
   const RayScene& rays_;
   const std::span<const Material* const> materials_;
-  const TreeLimits limits_;
+  const TreeSettings settings_;
   std::vector<vec3> extinctions_;  // 1/m, of the objects
 };
 
