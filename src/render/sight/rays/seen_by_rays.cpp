@@ -84,6 +84,7 @@ class PixelTrees {
     width_ = kCell * cells_.x + 1;
     const std::size_t rays = std::size_t(width_) * (kCell * cells_.y + 1);
     first_.assign(rays, {});
+    if (out_.firstHits.size() < rays) out_.firstHits.resize(rays);
     treeOf_.assign(rays, kNone);
     isBetween_.assign(std::size_t(cells_.x) * cells_.y, 0);
     const std::size_t pixels = std::size_t(region.size.x) * region.size.y;
@@ -94,6 +95,7 @@ class PixelTrees {
       for (std::vector<vec4>* list : {&out_.casterPositions, &out_.exits, &out_.directions})
         list->assign(pixels, vec4(0));
     isInTile_.assign(std::size_t(tiles_.x) * tiles_.y, 0);
+    raysOfTile_.assign(isInTile_.size(), 0);
     for (const gpu::Region& one : in_.casterRegions) {
       if (one.size.x == 0) continue;
       const uvec2 low = uvec2(one.corner - region.corner) / kTile;
@@ -119,8 +121,7 @@ class PixelTrees {
       const uvec2 low = kTile * uvec2(tile % tiles_.x, tile / tiles_.x);
       // The last ones have the corners beyond.
       const uvec2 high = glm::min(low + kTile, kCell * cells_ + 1u);
-      const uvec2 last(high.x + 1 == width_ ? high.x + 1 : high.x,
-                       high.y == kCell * cells_.y ? high.y + 1 : high.y);
+      const uvec2 last = glm::min(high + uvec2(glm::equal(high, kCell * cells_)), kCell * cells_ + 1u);
       thread_local std::vector<Ray> rays;
       thread_local std::vector<Hit> hits;
       rays.clear();
@@ -128,6 +129,7 @@ class PixelTrees {
         for (uint32_t x = low.x; x < last.x; ++x) rays.push_back(rayThrough({x, y}));
       hits.resize(rays.size());
       in_.rays.intersect(rays, hits);
+      raysOfTile_[tile] = rays.size();
       std::size_t i = 0;
       for (uint32_t y = low.y; y < last.y; ++y)
         for (uint32_t x = low.x; x < last.x; ++x, ++i) keepFirst({x, y}, rays[i], hits[i]);
@@ -138,6 +140,7 @@ class PixelTrees {
     if (hit.object == kNone || !in_.materials[hit.object]->isCaster()) return;
     const float depth = in_.view.nearest / (hit.distance * dot(ray.direction, in_.view.forward));
     first_[indexOf(place)] = {hit.object, hit.patch, depth};
+    out_.firstHits[indexOf(place)] = hit;
     if (!isPixel(place)) return;
     const bool isOutside = dot(ray.direction, hit.geometricNormal) < 0;
     const std::size_t pixel = pixelOf(place);
@@ -172,9 +175,14 @@ class PixelTrees {
       const std::size_t low = (chunk - firstChunk) * kChunk;
       const std::size_t high = std::min(low + kChunk, all.size());
       thread_local std::vector<Ray> rays;
+      thread_local std::vector<Hit> hits;
       rays.clear();
-      for (std::size_t i = low; i < high; ++i) rays.push_back(rayThrough(placeOf(all[i])));
-      tracer_.trace(rays, in_.media, chunks_[chunk]);
+      hits.clear();
+      for (std::size_t i = low; i < high; ++i) {
+        rays.push_back(rayThrough(placeOf(all[i])));
+        hits.push_back(out_.firstHits[all[i]]);
+      }
+      tracer_.trace(rays, hits, in_.media, chunks_[chunk]);
     });
   }
 
@@ -381,6 +389,7 @@ class PixelTrees {
   void count() {
     RaySightCounts& counts = out_.counts;
     counts = {};
+    for (const std::size_t rays : raysOfTile_) counts.rays += rays;
     for (const SightTrees& chunk : chunks_) {
       counts.rays += chunk.rays;
       counts.traced += chunk.trees.size();
@@ -403,6 +412,7 @@ class PixelTrees {
   std::vector<First> first_;        // of the rays
   std::vector<uint32_t> treeOf_;    // of the rays: in chunks_; kNone where it was not traced
   std::vector<uint8_t> isInTile_;   // of the tiles: whether casters may be there
+  std::vector<std::size_t> raysOfTile_;
   std::vector<uint8_t> isBetween_;  // of the cells: whether they are interpolated
   std::vector<SightTrees> chunks_;  // of kChunk trees each but the last of a list
 };

@@ -47,6 +47,7 @@ struct SeenByRays {
   std::vector<vec4> normals;    // unit, on the side that is seen
   std::vector<vec4> factors;    // rgb: luminance of the pixel (nit) for each lux at the point
   RaySightCounts counts;
+  std::vector<Hit> firstHits;  // memory of seeByRays
 };
 
 // Memory of `seen` is used again. The same for any number of threads.

@@ -11,6 +11,8 @@ namespace nephroid {
 namespace {
 
 constexpr uint32_t kAllChannels = 7;
+constexpr float kMostMadeUp = 0.1f;    // of a tree's weight
+constexpr float kDarkest = 1.0f / 16;  // weight of all ways of a tree, as far as its ways are followed further
 
 enum class Event : uint32_t { missed, arrived, mirrored, passed, entered, left, reflected };
 
@@ -50,6 +52,10 @@ struct ViewTracer::Branch {
 struct ViewTracer::Work {
   std::vector<Branch> wave;  // rays that are near each other follow one another, for the tracer
   std::vector<Branch> transmitted, reflected;  // of the next wave
+  std::vector<Branch> weak;  // too weak beside a tree of weight 1, but perhaps not beside their own
+  bool hasWeights = false;   // what the trees show but for the weak is known
+  std::vector<vec3> weights;  // of each tree's ways that were followed to their ends
+  std::vector<vec3> leftOut;  // weights of each tree's ways that were too weak
   std::vector<Ray> rays;
   std::vector<Hit> hits;
   std::vector<SightEnd> ends;  // in the order in which they are met
@@ -63,7 +69,8 @@ ViewTracer::ViewTracer(const Scene& scene, const RayScene& rays, std::span<const
   for (const Material* material : materials_) extinctions_.push_back(extinctionOf(*material));
 }
 
-void ViewTracer::trace(std::span<const Ray> rays, const MediumStack& media, SightTrees& result) const {
+void ViewTracer::trace(std::span<const Ray> rays, std::span<const Hit> hits, const MediumStack& media,
+                       SightTrees& result) const {
   thread_local Work work;
   result = {};
   result.trees.resize(rays.size());
@@ -78,18 +85,52 @@ void ViewTracer::trace(std::span<const Ray> rays, const MediumStack& media, Sigh
     branch.tree = i;
     branch.media = media;
   }
+  work.weak.clear();
+  work.hasWeights = false;
+  work.weights.assign(rays.size(), vec3(0));
+  work.leftOut.assign(rays.size(), vec3(0));
+  traceWaves(hits, work);
+  chooseWeak(work);
+  traceWaves(work.hits, work);
+  sortEnds(work);
+  makeUp(work);
+}
+
+void ViewTracer::traceWaves(std::span<const Hit> hits, Work& work) const {
   while (!work.wave.empty()) {
-    work.rays.clear();
-    for (const Branch& branch : work.wave) work.rays.push_back(branch.ray);
-    work.hits.resize(work.wave.size());
-    rays_.intersect(work.rays, work.hits);
-    result.rays += work.wave.size();
     work.transmitted.clear();
     work.reflected.clear();
-    for (std::size_t i = 0; i < work.wave.size(); ++i) meet(work.wave[i], work.hits[i], work);
+    for (std::size_t i = 0; i < work.wave.size(); ++i) meet(work.wave[i], hits[i], work);
     work.wave.swap(work.transmitted);
     work.wave.insert(work.wave.end(), work.reflected.begin(), work.reflected.end());
+    meetNext(work);
+    hits = work.hits;
   }
+}
+
+// What the rays of a wave meet.
+void ViewTracer::meetNext(Work& work) const {
+  work.rays.clear();
+  for (const Branch& branch : work.wave) work.rays.push_back(branch.ray);
+  work.hits.resize(work.wave.size());
+  rays_.intersect(work.rays, work.hits);
+  work.result->rays += work.wave.size();
+}
+
+// Of dark trees, the ways that would be too weak in bright ones make the next wave.
+void ViewTracer::chooseWeak(Work& work) const {
+  work.hasWeights = true;
+  for (const Branch& branch : work.weak)
+    if (isKept(branch, work))
+      work.wave.push_back(branch);
+    else
+      leaveOut(branch, work);
+  meetNext(work);
+}
+
+// Ends by trees, within each in the order in which they were met.
+void ViewTracer::sortEnds(const Work& work) {
+  SightTrees& result = *work.result;
   uint32_t first = 0;
   for (SightTree& tree : result.trees) {
     tree.first = first;
@@ -100,6 +141,21 @@ void ViewTracer::trace(std::span<const Ray> rays, const MediumStack& media, Sigh
   for (std::size_t i = 0; i < work.ends.size(); ++i) {
     SightTree& tree = result.trees[work.treeOfEnd[i]];
     result.ends[tree.first + tree.count++] = work.ends[i];
+  }
+}
+
+void ViewTracer::leaveOut(const Branch& branch, Work& work) {
+  work.leftOut[branch.tree] += branch.weight / std::min(branch.gain, 1.0f);
+  work.result->leftOut += double(largestChannel(branch.weight));
+}
+
+// What was left out is taken to show what the tree's other ways show.
+void ViewTracer::makeUp(const Work& work) {
+  for (std::size_t i = 0; i < work.weights.size(); ++i) {
+    SightTree& tree = work.result->trees[i];
+    const vec3 factor = 1.0f + glm::min(work.leftOut[i] / glm::max(work.weights[i], vec3(1e-6f)), vec3(kMostMadeUp));
+    tree.background *= factor;
+    for (uint32_t end = tree.first; end < tree.first + tree.count; ++end) work.result->ends[end].weight *= factor;
   }
 }
 
@@ -114,12 +170,11 @@ void ViewTracer::meet(const Branch& arriving, const Hit& hit, Work& work) const 
   const uint32_t medium = branch.media.top();
   if (hit.object == kNone) {
     tree.ways = extended(tree.ways, extended(branch.ways, uint32_t(Event::missed)));
-    if (medium == kNone) {
-      tree.background += branch.weight;
-    } else if (rays_.isClosed(medium)) {
+    if (medium != kNone && rays_.isClosed(medium)) {
       work.result->lost += double(largestChannel(branch.weight));
-    } else if (extinctions_[medium] == vec3(0)) {
+    } else if (medium == kNone || extinctions_[medium] == vec3(0)) {
       tree.background += branch.weight;
+      work.weights[branch.tree] += branch.weight;
     }
     return;
   }
@@ -145,6 +200,7 @@ void ViewTracer::meetReceiver(const Branch& branch, const Hit& hit, Work& work) 
   end.position = hit.flatPosition;
   end.normal = dot(branch.ray.direction, hit.geometricNormal) < 0 ? hit.normal : -hit.normal;
   end.weight = branch.weight;
+  work.weights[branch.tree] += branch.weight;
   end.texcoord = texcoordAt(scene_, hit);
   end.object = hit.object;
   end.ways = extended(branch.ways, hit, Event::arrived);
@@ -240,14 +296,20 @@ void ViewTracer::refract(const Branch& branch, const Hit& hit, const MediaSides&
 
 void ViewTracer::goOn(Branch branch, const Hit& hit, vec3 direction, std::vector<Branch>& next,
                       Work& work) const {
-  const float weight = largestChannel(branch.weight);
-  // What has entered a denser medium may leave it again, and then weighs what it did before.
-  if (weight < settings_.leastWeight * std::min(branch.gain, 1.0f)) {
-    work.result->leftOut += double(weight);
-    return;
-  }
+  const bool isStrong = isKept(branch, work);
+  if (!isStrong && (work.hasWeights || largestChannel(branch.weight) < kDarkest * settings_.leastWeight))
+    return leaveOut(branch, work);
   branch.ray = rays_.leavingTriangle(hit, direction);
-  next.push_back(branch);
+  (isStrong ? next : work.weak).push_back(branch);
+}
+
+// Whether a way counts beside all that its tree shows, or, as long as that is not known, beside a weight of
+// 1.
+bool ViewTracer::isKept(const Branch& branch, const Work& work) const {
+  // What has entered a denser medium may leave it again, and then weighs what it did before.
+  const float least = settings_.leastWeight * std::min(branch.gain, 1.0f);
+  const vec3 beside = work.hasWeights ? glm::clamp(work.weights[branch.tree], kDarkest, 1.0f) : vec3(1);
+  return glm::any(glm::greaterThan(branch.weight, least * beside));
 }
 
 }  // namespace nephroid

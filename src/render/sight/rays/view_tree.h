@@ -38,7 +38,7 @@ struct WayBeyond {
 
 // How trees are followed.
 struct TreeSettings {
-  float leastWeight = 2e-3f;  // of a way; weaker ones are left out
+  float leastWeight = 2e-3f;  // of a way, of what its tree shows in all; weaker ones are left out
   bool tellsWaysBeyond = false;
 };
 
@@ -46,9 +46,9 @@ struct SightTrees {
   std::vector<SightTree> trees;
   std::vector<SightEnd> ends;
   std::vector<WayBeyond> waysBeyond;  // of the trees, where they are asked for
-  double leftOut = 0;  // sum of the weights of ways that were too weak
+  double leftOut = 0;  // sum of the weights of ways that were too weak; the others stand for them
   double lost = 0;     // the same of those that met too many boundaries, or leaked out of a closed mesh
-  uint64_t rays = 0;   // traced
+  uint64_t rays = 0;   // traced beyond the first hits
 };
 
 inline float largestChannel(vec3 v) {
@@ -61,13 +61,21 @@ class ViewTracer {
   ViewTracer(const Scene& scene, const RayScene& rays, std::span<const Material* const> materials,
              const TreeSettings& settings);
 
-  // A tree for each ray; they begin inside `media`, and should be near each other. Replaces what is in
-  // `result`. Several threads may trace at the same time.
-  void trace(std::span<const Ray> rays, const MediumStack& media, SightTrees& result) const;
+  // A tree for each ray; they begin inside `media`, and should be near each other. `hits`: what each meets
+  // first. Replaces what is in `result`. Several threads may trace at the same time.
+  void trace(std::span<const Ray> rays, std::span<const Hit> hits, const MediumStack& media,
+             SightTrees& result) const;
 
  private:
   struct Branch;
   struct Work;
+  void traceWaves(std::span<const Hit> hits, Work& work) const;
+  void meetNext(Work& work) const;
+  void chooseWeak(Work& work) const;
+  static void sortEnds(const Work& work);
+  static void leaveOut(const Branch& branch, Work& work);
+  static void makeUp(const Work& work);
+  bool isKept(const Branch& branch, const Work& work) const;
   void meet(const Branch& branch, const Hit& hit, Work& work) const;
   void meetReceiver(const Branch& branch, const Hit& hit, Work& work) const;
   void meetMirror(const Branch& branch, const Hit& hit, Work& work) const;
