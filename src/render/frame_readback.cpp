@@ -37,8 +37,7 @@ std::vector<PassOutput> Renderer::outputs() const {
                          {"receivers", "normals", &seen.normal, kShowDirection},
                          {"receivers", "positions", &seen.position, kShowPlace},
                          {"receivers", "depth", &images_.depth, kShowNearness}});
-  if (casterRegion().size.x > 0)
-    all.push_back({"casters", "normals", &images_.casterNormal, kShowDirection});
+  if (casterRegion().size.x > 0) all.push_back({"casters", "normals", &images_.casterNormal, kShowDirection});
   if (sight_.region().size.x > 0)
     all.push_back({"seen through casters", "transmittance", &seen.transmittance, kShowFactor});
   if (sight_.reflects())

@@ -25,8 +25,8 @@ uniform texture2D shafts;
 // With kHasTurbidWater: the parts of view rays in water, and the light that it scatters along them (nit).
 uniform texture2D wayStart;
 uniform texture2D scattered;
-// With kSeenByRays, of the pixels: rgb is what they show by no light (nit), a > 0 where there is a caster; and
-// the first of their points, and their number.
+// With kSeenByRays, of the pixels: rgb is what they show by no light (nit), a > 0 where there is a caster;
+// and the first of their points, and their number.
 uniform texture2D sightRest;
 uniform utexture2D sightRanges;
 // Of the points, kPointsInRow in a row: luminance of the pixel for each lux (nit), and the light there.

@@ -114,7 +114,11 @@ Scene underWater() {
 // A scene and all that its view depends on.
 struct Looked {
   explicit Looked(const Scene& sceneOf, uvec2 sizeOf)
-      : scene(sceneOf), size(sizeOf), rays(scene), materials(materialsOf(scene)), view(viewOf(scene.camera, size)) {
+      : scene(sceneOf),
+        size(sizeOf),
+        rays(scene),
+        materials(materialsOf(scene)),
+        view(viewOf(scene.camera, size)) {
     for (const Object& object : scene.objects) {
       if (!scene.isCaster(object)) continue;
       const Box box = extentOf(scene.meshOf(object)).box;
@@ -125,8 +129,9 @@ struct Looked {
 
   SeenByRays seen(float leastWeight, bool interpolates) const {
     SeenByRays seen;
-    const RaySightInput input{scene, rays,    materials,     view, mediaAround(rays, materials, view.eye),
-                              size,  regions, {leastWeight}, interpolates};
+    const RaySightInput input{
+        scene, rays,    materials,     view,        mediaAround(rays, materials, view.eye),
+        size,  regions, {leastWeight}, interpolates};
     seeByRays(input, seen);
     return seen;
   }
@@ -146,7 +151,8 @@ std::vector<vec3> lit(const SeenByRays& seen) {
     vec3 sum(seen.rest[i]);
     for (uint32_t p = seen.ranges[i].x; p < seen.ranges[i].x + seen.ranges[i].y; ++p) {
       const vec3 at(seen.positions[p]);
-      const float lux = std::abs(seen.normals[p].y) + std::exp(-dot(at, at)) * std::sin(20 * at.x) * std::sin(20 * at.z);
+      const float lux =
+          std::abs(seen.normals[p].y) + std::exp(-dot(at, at)) * std::sin(20 * at.x) * std::sin(20 * at.z);
       sum += vec3(seen.factors[p]) * lux;
     }
     pixels.push_back(sum);
@@ -161,7 +167,8 @@ double offPart(const SeenByRays& seen, const SeenByRays& exact, float exposure) 
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     if (exact.rest[i].a == 0) continue;
     ++all;
-    const vec3 levels = 255.0f * glm::abs(displayed(pixels[i], exposure) - displayed(exactPixels[i], exposure));
+    const vec3 levels =
+        255.0f * glm::abs(displayed(pixels[i], exposure) - displayed(exactPixels[i], exposure));
     const vec3 error = glm::abs(pixels[i] - exactPixels[i]);
     for (int c = 0; c < 3; ++c)
       if (error[c] > 0.02f * exactPixels[i][c] && levels[c] > 1) {
@@ -176,8 +183,8 @@ struct Case {
   const char* name;
   Scene (*make)();
 };
-constexpr Case kCases[] = {{"ball", ball},        {"wine glass", wineGlass}, {"joined blocks", joined},
-                           {"gem", gem},          {"disco ball", discoBall}, {"pane", pane},
+constexpr Case kCases[] = {{"ball", ball},        {"wine glass", wineGlass},  {"joined blocks", joined},
+                           {"gem", gem},          {"disco ball", discoBall},  {"pane", pane},
                            {"in glass", inGlass}, {"under water", underWater}};
 
 TEST(RaySight, ShowsWhatEveryPixelTracedShows) {

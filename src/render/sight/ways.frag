@@ -32,8 +32,7 @@ void fromEye(vec4 receiver, vec4 caster) {
 
 void fromSurface(ivec2 pixel, vec4 receiver, vec4 caster) {
   const vec4 exit = texelFetch(casterExit, pixel, 0);
-  const vec3 start = exit.xyz,
-             direction = normalize(texelFetch(casterDirection, pixel, 0).xyz);
+  const vec3 start = exit.xyz, direction = normalize(texelFetch(casterDirection, pixel, 0).xyz);
   const vec3 normal = normalize(texelFetch(casterNormal, pixel, 0).xyz);  // on the side of the eye
   const bool isReflected = constants.kind == kWayReflected;
   const bool isThere = caster.a == float(constants.number) && (dot(direction, normal) < 0) != isReflected;

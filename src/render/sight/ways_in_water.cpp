@@ -17,10 +17,9 @@ constexpr float kFarthestWay = 1e5f;  // m in water, where nothing is met
 }  // namespace
 
 WaysInWater::WaysInWater(gpu::Device& device, bool isByRays)
-    : program_(gpu::createRasterProgram(device, "ways in water", shaders::techniques_whole_picture_vert,
-                                        shaders::render_sight_ways_frag,
-                                        {.colors = {{kWayFormat}, {kWayFormat}}},
-                                        {{"kIsByRays", isByRays}})) {}
+    : program_(gpu::createRasterProgram(
+          device, "ways in water", shaders::techniques_whole_picture_vert, shaders::render_sight_ways_frag,
+          {.colors = {{kWayFormat}, {kWayFormat}}}, {{"kIsByRays", isByRays}})) {}
 
 void WaysInWater::update(const SceneTransport& transport, const View& view, uvec2 pictureSize,
                          const std::vector<MeshExtent>& extents, const gpu::Region& casterRegion) {
@@ -40,8 +39,8 @@ void WaysInWater::update(const SceneTransport& transport, const View& view, uvec
   std::ranges::stable_sort(waters_, {}, [](const WaterInSight& water) { return water.constants.kind; });
 }
 
-void WaysInWater::add(const Scene& scene, const View& view, uint32_t object, uvec2 pictureSize,
-                      bool isInside, bool isInPicture) {
+void WaysInWater::add(const Scene& scene, const View& view, uint32_t object, uvec2 pictureSize, bool isInside,
+                      bool isInPicture) {
   const Material& material = scene.materialOf(scene.objects[object]);
   const vec3 extinction = extinctionOf(material);
   if (extinction == vec3(0) || !(isInside || isInPicture)) return;

@@ -122,7 +122,9 @@ void RaySight::record(gpu::CommandList& commands, const FrameImages& images) {
                                 {&images.seen[kSeen].albedo, 0, std::nullopt}},
                      .depth = gpu::DepthAttachment{&images.depth, 0, std::nullopt},
                      .region = region},
-                    [&] { commands.draw(program_, 3, 1, gpu::NoConstants{}, {{"sightRest", rest_}}); });
+                    [&] {
+                      commands.draw(program_, 3, 1, gpu::NoConstants{}, {{"sightRest", rest_}});
+                    });
   });
 }
 

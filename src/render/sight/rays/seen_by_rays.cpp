@@ -151,9 +151,7 @@ class PixelTrees {
   }
 
   bool isPixel(uvec2 place) const { return place.x < out_.region.size.x && place.y < out_.region.size.y; }
-  std::size_t pixelOf(uvec2 place) const {
-    return std::size_t(place.y) * out_.region.size.x + place.x;
-  }
+  std::size_t pixelOf(uvec2 place) const { return std::size_t(place.y) * out_.region.size.x + place.x; }
   bool isCasterAt(uvec2 place) const { return first_[indexOf(place)].object != kNone; }
 
   // Traces what `list` adds to a list for each cell, in the order of tiles, so that rays are near each other.
@@ -299,7 +297,8 @@ class PixelTrees {
       return distance(blend.ends[a][i].position, blend.ends[b][i].position);
     };
     const float pixel = std::max({apart(0, 1), apart(2, 3), apart(0, 2), apart(1, 3)}) / float(kCell);  // m
-    const float most = kMostShift * glm::clamp(0.1f / std::max(weight, 1e-6f), 1.0f, kMostFaintShift / kMostShift);
+    const float most =
+        kMostShift * glm::clamp(0.1f / std::max(weight, 1e-6f), 1.0f, kMostFaintShift / kMostShift);
     if (distance(blend.end(i, &SightEnd::position), end.position) > most * pixel) return false;
     return distance(normalize(blend.end(i, &SightEnd::normal)), end.normal) < kMostTurn;
   }
@@ -377,9 +376,8 @@ class PixelTrees {
   vec3 writePoint(std::size_t point, const SightEnd& end) {
     const Material& material = *in_.materials[end.object];
     const bool hasTexture = !in_.scene.meshOf(in_.scene.objects[end.object]).texcoords.empty();
-    const vec3 factor =
-        end.weight * kInversePi *
-        (hasTexture ? diffuseReflectance(in_.scene, material, end.texcoord) : material.color);
+    const vec3 factor = end.weight * kInversePi *
+                        (hasTexture ? diffuseReflectance(in_.scene, material, end.texcoord) : material.color);
     out_.positions[point] = vec4(end.position, 1);
     out_.normals[point] = vec4(end.normal, 0);
     out_.factors[point] = vec4(factor, 0);
@@ -408,10 +406,10 @@ class PixelTrees {
   const ViewTracer tracer_;
   const PictureRays pictureRays_;
   uvec2 cells_{0}, tiles_{0};
-  uint32_t width_ = 0;              // rays in a row
-  std::vector<First> first_;        // of the rays
-  std::vector<uint32_t> treeOf_;    // of the rays: in chunks_; kNone where it was not traced
-  std::vector<uint8_t> isInTile_;   // of the tiles: whether casters may be there
+  uint32_t width_ = 0;             // rays in a row
+  std::vector<First> first_;       // of the rays
+  std::vector<uint32_t> treeOf_;   // of the rays: in chunks_; kNone where it was not traced
+  std::vector<uint8_t> isInTile_;  // of the tiles: whether casters may be there
   std::vector<std::size_t> raysOfTile_;
   std::vector<uint8_t> isBetween_;  // of the cells: whether they are interpolated
   std::vector<SightTrees> chunks_;  // of kChunk trees each but the last of a list

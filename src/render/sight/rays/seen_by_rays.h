@@ -12,11 +12,11 @@ namespace nephroid {
 // All that it depends on.
 struct RaySightInput {
   const Scene& scene;
-  const RayScene& rays;  // of the scene
+  const RayScene& rays;                        // of the scene
   std::span<const Material* const> materials;  // of the objects
   const View& view;
-  MediumStack media;  // around the eye
-  uvec2 size{0};      // pixels of the picture
+  MediumStack media;                           // around the eye
+  uvec2 size{0};                               // pixels of the picture
   std::span<const gpu::Region> casterRegions;  // outside all of these no pixel shows a caster
   TreeSettings trees{};
   bool interpolates = true;  // where neighbors agree; otherwise each pixel is traced
@@ -24,11 +24,11 @@ struct RaySightInput {
 
 struct RaySightCounts {
   uint64_t rays = 0;
-  uint64_t pixels = 0;   // that show casters
-  uint64_t traced = 0;   // of them
+  uint64_t pixels = 0;  // that show casters
+  uint64_t traced = 0;  // of them
   uint64_t points = 0;
-  double leftOut = 0;    // mean over the traced pixels: the weight of ways that were too weak
-  double lost = 0;       // the same, of ways that found no end
+  double leftOut = 0;  // mean over the traced pixels: the weight of ways that were too weak
+  double lost = 0;     // the same, of ways that found no end
 };
 
 struct SeenByRays {

@@ -11,8 +11,9 @@ namespace nephroid {
 namespace {
 
 constexpr uint32_t kAllChannels = 7;
-constexpr float kMostMadeUp = 0.1f;    // of a tree's weight
-constexpr float kDarkest = 1.0f / 16;  // weight of all ways of a tree, as far as its ways are followed further
+constexpr float kMostMadeUp = 0.1f;  // of a tree's weight
+constexpr float kDarkest =
+    1.0f / 16;  // weight of all ways of a tree, as far as its ways are followed further
 
 enum class Event : uint32_t { missed, arrived, mirrored, passed, entered, left, reflected };
 
@@ -44,7 +45,7 @@ struct ViewTracer::Branch {
   uint32_t tree = 0;
   uint32_t ways = 2166136261u;
   uint32_t crossings = 0;
-  bool isBeyond = false;  // it is on the way after the first boundary
+  bool isBeyond = false;             // it is on the way after the first boundary
   uint32_t channels = kAllChannels;  // bit c: it carries channel c
   MediumStack media;
 };
@@ -52,8 +53,8 @@ struct ViewTracer::Branch {
 struct ViewTracer::Work {
   std::vector<Branch> wave;  // rays that are near each other follow one another, for the tracer
   std::vector<Branch> transmitted, reflected;  // of the next wave
-  std::vector<Branch> weak;  // too weak beside a tree of weight 1, but perhaps not beside their own
-  bool hasWeights = false;   // what the trees show but for the weak is known
+  std::vector<Branch> weak;   // too weak beside a tree of weight 1, but perhaps not beside their own
+  bool hasWeights = false;    // what the trees show but for the weak is known
   std::vector<vec3> weights;  // of each tree's ways that were followed to their ends
   std::vector<vec3> leftOut;  // weights of each tree's ways that were too weak
   std::vector<Ray> rays;
@@ -144,8 +145,11 @@ void ViewTracer::sortEnds(const Work& work) {
   }
 }
 
-void ViewTracer::leaveOut(const Branch& branch, Work& work) {
-  work.leftOut[branch.tree] += branch.weight / std::min(branch.gain, 1.0f);
+void ViewTracer::leaveOut(const Branch& branch, Work& work) const {
+  const uint32_t medium = branch.media.top();
+  // In what absorbs, most of it comes to an end there.
+  if (medium == kNone || extinctions_[medium] == vec3(0))
+    work.leftOut[branch.tree] += branch.weight / std::min(branch.gain, 1.0f);
   work.result->leftOut += double(largestChannel(branch.weight));
 }
 
@@ -153,9 +157,11 @@ void ViewTracer::leaveOut(const Branch& branch, Work& work) {
 void ViewTracer::makeUp(const Work& work) {
   for (std::size_t i = 0; i < work.weights.size(); ++i) {
     SightTree& tree = work.result->trees[i];
-    const vec3 factor = 1.0f + glm::min(work.leftOut[i] / glm::max(work.weights[i], vec3(1e-6f)), vec3(kMostMadeUp));
+    const vec3 factor =
+        1.0f + glm::min(work.leftOut[i] / glm::max(work.weights[i], vec3(1e-6f)), vec3(kMostMadeUp));
     tree.background *= factor;
-    for (uint32_t end = tree.first; end < tree.first + tree.count; ++end) work.result->ends[end].weight *= factor;
+    for (uint32_t end = tree.first; end < tree.first + tree.count; ++end)
+      work.result->ends[end].weight *= factor;
   }
 }
 
@@ -224,8 +230,7 @@ void ViewTracer::meetThinWall(const Branch& branch, const Hit& hit, Work& work) 
   const vec3 direction = branch.ray.direction;
   const vec3 normal = facingNormal(direction, hit.normal, hit.geometricNormal);
   vec3 transmitted;
-  for (uint32_t c = 0; c < 3; ++c)
-    transmitted[int(c)] = thinWallTransmitted(material, c, direction, normal);
+  for (uint32_t c = 0; c < 3; ++c) transmitted[int(c)] = thinWallTransmitted(material, c, direction, normal);
   Branch on = branch;
   on.weight = branch.weight * transmitted * material.color;
   on.ways = extended(branch.ways, hit, Event::passed);

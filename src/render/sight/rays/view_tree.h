@@ -38,7 +38,7 @@ struct WayBeyond {
 
 // How trees are followed.
 struct TreeSettings {
-  float leastWeight = 2e-3f;  // of a way, of what its tree shows in all; weaker ones are left out
+  float leastWeight = 8e-4f;  // of a way, of what its tree shows in all; weaker ones are left out
   bool tellsWaysBeyond = false;
 };
 
@@ -73,7 +73,7 @@ class ViewTracer {
   void meetNext(Work& work) const;
   void chooseWeak(Work& work) const;
   static void sortEnds(const Work& work);
-  static void leaveOut(const Branch& branch, Work& work);
+  void leaveOut(const Branch& branch, Work& work) const;
   static void makeUp(const Work& work);
   bool isKept(const Branch& branch, const Work& work) const;
   void meet(const Branch& branch, const Hit& hit, Work& work) const;
