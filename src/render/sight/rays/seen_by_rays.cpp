@@ -128,7 +128,7 @@ class PixelTrees {
       for (uint32_t y = low.y; y < last.y; ++y)
         for (uint32_t x = low.x; x < last.x; ++x) rays.push_back(rayThrough({x, y}));
       hits.resize(rays.size());
-      in_.rays.intersect(rays, hits);
+      in_.rays.intersect(rays, hits, true);
       raysOfTile_[tile] = rays.size();
       std::size_t i = 0;
       for (uint32_t y = low.y; y < last.y; ++y)
@@ -207,7 +207,7 @@ class PixelTrees {
     const SightTree* first = treeAt(corners[0]);
     for (const uvec2 corner : corners) {
       const SightTree* tree = treeAt(corner);
-      if (!tree || tree->ways != first->ways || tree->count != first->count) return;
+      if (!tree || tree->ways != first->ways || tree->strong != first->strong) return;
     }
     if (isOfOneSurface(cell)) add(middleOf(cell), list);
   }
@@ -276,14 +276,14 @@ class PixelTrees {
     const SightTree* middle = treeAt(middleOf(cell));
     if (!middle) return false;
     for (const uvec2 corner : cornersOf(cell))
-      if (!treeAt(corner) || treeAt(corner)->ways != middle->ways || treeAt(corner)->count != middle->count)
+      if (!treeAt(corner) || treeAt(corner)->ways != middle->ways || treeAt(corner)->strong != middle->strong)
         return false;
     const Blend blend = blendIn(cell, vec2(0.5f));
     const SightEnd* ends = endsAt(middleOf(cell));
     if (largestChannel(glm::abs(blend.background() - middle->background)) >
-        kMostWeightError * largestChannel(middle->background) + kMostFaintError)
+        kMostWeightError * largestChannel(middle->background) + kFaintWeight)
       return false;
-    for (uint32_t i = 0; i < middle->count; ++i)
+    for (uint32_t i = 0; i < middle->strong; ++i)
       if (!isNear(blend, i, ends[i])) return false;
     return true;
   }
@@ -315,9 +315,9 @@ class PixelTrees {
     for (uint32_t y = 0; y < size.y; ++y)
       for (uint32_t x = 0; x < size.x; ++x) {
         if (!isCasterAt({x, y})) continue;
-        const SightTree* tree = treeAt(isBetween({x, y}) ? kCell * (uvec2(x, y) / kCell) : uvec2(x, y));
-        out_.ranges[pixelOf({x, y})] = {points, tree->count};
-        points += tree->count;
+        const uint32_t count = pointsOf({x, y});
+        out_.ranges[pixelOf({x, y})] = {points, count};
+        points += count;
       }
     out_.positions.resize(points);
     out_.normals.resize(points);
@@ -328,6 +328,13 @@ class PixelTrees {
     });
   }
 
+  // Of an interpolated pixel, the corner of its cell whose faint ways it has.
+  static uvec2 nearestCorner(uvec2 place) { return (place + kCell / 2 - 1u) / kCell * kCell; }
+
+  uint32_t pointsOf(uvec2 place) const {
+    return treeAt(isBetween(place) ? nearestCorner(place) : place)->count;
+  }
+
   void writePixel(uvec2 place) {
     const std::size_t pixel = pixelOf(place);
     const uvec2 range = out_.ranges[pixel];
@@ -335,7 +342,10 @@ class PixelTrees {
     if (isBetween(place)) {
       const Blend blend = blendIn(place / kCell, vec2(place % kCell) / float(kCell));
       rest = blend.background() * in_.scene.environment.background;
-      for (uint32_t i = 0; i < range.y; ++i) {
+      const SightTree& nearest = *treeAt(nearestCorner(place));
+      const SightEnd* faint = endsAt(nearestCorner(place));
+      for (uint32_t i = nearest.strong; i < nearest.count; ++i) rest += writePoint(range.x + i, faint[i]);
+      for (uint32_t i = 0; i < nearest.strong; ++i) {
         SightEnd end = blend.ends[0][i];
         end.position = blend.end(i, &SightEnd::position);
         end.normal = normalize(blend.end(i, &SightEnd::normal));

@@ -98,23 +98,23 @@ void ViewTracer::trace(std::span<const Ray> rays, std::span<const Hit> hits, con
 }
 
 void ViewTracer::traceWaves(std::span<const Hit> hits, Work& work) const {
-  while (!work.wave.empty()) {
+  for (bool isFirst = !work.hasWeights; !work.wave.empty(); isFirst = false) {
     work.transmitted.clear();
     work.reflected.clear();
     for (std::size_t i = 0; i < work.wave.size(); ++i) meet(work.wave[i], hits[i], work);
     work.wave.swap(work.transmitted);
     work.wave.insert(work.wave.end(), work.reflected.begin(), work.reflected.end());
-    meetNext(work);
+    meetNext(work, isFirst);  // after a boundary or two rays scatter
     hits = work.hits;
   }
 }
 
 // What the rays of a wave meet.
-void ViewTracer::meetNext(Work& work) const {
+void ViewTracer::meetNext(Work& work, bool areAlike) const {
   work.rays.clear();
   for (const Branch& branch : work.wave) work.rays.push_back(branch.ray);
   work.hits.resize(work.wave.size());
-  rays_.intersect(work.rays, work.hits);
+  rays_.intersect(work.rays, work.hits, areAlike);
   work.result->rays += work.wave.size();
 }
 
@@ -126,22 +126,24 @@ void ViewTracer::chooseWeak(Work& work) const {
       work.wave.push_back(branch);
     else
       leaveOut(branch, work);
-  meetNext(work);
+  meetNext(work, false);
 }
 
-// Ends by trees, within each in the order in which they were met.
+// Ends by trees, within each the faint ones last, and otherwise in the order in which they were met.
 void ViewTracer::sortEnds(const Work& work) {
   SightTrees& result = *work.result;
   uint32_t first = 0;
   for (SightTree& tree : result.trees) {
     tree.first = first;
     first += tree.count;
-    tree.count = 0;
+    tree.count = tree.strong;
+    tree.strong = 0;
   }
   result.ends.resize(work.ends.size());
   for (std::size_t i = 0; i < work.ends.size(); ++i) {
     SightTree& tree = result.trees[work.treeOfEnd[i]];
-    result.ends[tree.first + tree.count++] = work.ends[i];
+    uint32_t& next = work.ends[i].isFaint() ? tree.count : tree.strong;
+    result.ends[tree.first + next++] = work.ends[i];
   }
 }
 
@@ -175,7 +177,8 @@ void ViewTracer::meet(const Branch& arriving, const Hit& hit, Work& work) const 
   }
   const uint32_t medium = branch.media.top();
   if (hit.object == kNone) {
-    tree.ways = extended(tree.ways, extended(branch.ways, uint32_t(Event::missed)));
+    if (largestChannel(branch.weight) >= kFaintWeight)
+      tree.ways = extended(tree.ways, extended(branch.ways, uint32_t(Event::missed)));
     if (medium != kNone && rays_.isClosed(medium)) {
       work.result->lost += double(largestChannel(branch.weight));
     } else if (medium == kNone || extinctions_[medium] == vec3(0)) {
@@ -210,8 +213,11 @@ void ViewTracer::meetReceiver(const Branch& branch, const Hit& hit, Work& work) 
   end.texcoord = texcoordAt(scene_, hit);
   end.object = hit.object;
   end.ways = extended(branch.ways, hit, Event::arrived);
-  tree.ways = extended(tree.ways, end.ways);
   ++tree.count;
+  if (!end.isFaint()) {
+    tree.ways = extended(tree.ways, end.ways);
+    ++tree.strong;
+  }
   work.ends.push_back(end);
   work.treeOfEnd.push_back(branch.tree);
 }

@@ -11,6 +11,9 @@
 
 namespace nephroid {
 
+// Weight of a way whose end may as well be that of another pixel nearby.
+inline constexpr float kFaintWeight = 3e-3f;
+
 // The receiver at the end of one of a view ray's ways. World space.
 struct SightEnd {
   vec3 position{0};  // m
@@ -19,13 +22,16 @@ struct SightEnd {
   vec2 texcoord{0};
   uint32_t object = 0;
   uint32_t ways = 0;  // equal where the same smooth surfaces lie on the way, and at its end
+  bool isFaint() const { return std::max({weight.x, weight.y, weight.z}) < kFaintWeight; }
 };
 
 // All that one view ray shows.
 struct SightTree {
-  uint32_t first = 0, count = 0;  // its ends, in an order that ways alone decide
-  vec3 background{0};             // weight of the ways that meet nothing
-  uint32_t ways = 0;              // equal for trees that have the same ways
+  // Its ends, those that are not faint in front, in an order that ways alone decide.
+  uint32_t first = 0, count = 0;
+  uint32_t strong = 0;  // number of those that are not faint
+  vec3 background{0};   // weight of the ways that meet nothing
+  uint32_t ways = 0;    // equal for trees that have the same ways, but for faint ones
 };
 
 // The straight way of a view ray after its first boundary: what is transmitted there, or, where nothing is,
@@ -70,7 +76,7 @@ class ViewTracer {
   struct Branch;
   struct Work;
   void traceWaves(std::span<const Hit> hits, Work& work) const;
-  void meetNext(Work& work) const;
+  void meetNext(Work& work, bool areAlike) const;
   void chooseWeak(Work& work) const;
   static void sortEnds(const Work& work);
   void leaveOut(const Branch& branch, Work& work) const;
