@@ -50,6 +50,9 @@ class Renderer {
   // depth.Z (m along the view, 0 where there is nothing) and normal.X,Y,Z of the nearest surface.
   Image layers();
 
+  // Adds the counts of the view through casters by rays, of the last frame that made it anew.
+  void tellSight(Stats& stats) const;
+
   // The images of the last frame.
   const FrameImages& images() const { return images_; }
 

@@ -1,4 +1,5 @@
 // What a frame leaves behind, for files and for looking into its passes.
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <string_view>
 
@@ -20,6 +21,18 @@ void writeChannels(Image& layers, const std::string& prefix, std::string_view na
 
 ByteImage Renderer::picture() const {
   return gpu::downloadPicture(device_, images_.picture);
+}
+
+void Renderer::tellSight(Stats& stats) const {
+  if (!isByRays_ || casterRegion().size.x == 0) return;
+  const RaySightCounts& counts = raySight_.counts();
+  setCount(stats, "sight_pixels", counts.pixels);
+  setCount(stats, "sight_traced_pixels", counts.traced);
+  setCount(stats, "sight_rays", counts.rays);
+  setCount(stats, "sight_points", counts.points);
+  constexpr double kMillion = 1e6;
+  setCount(stats, "sight_left_out_per_million", uint64_t(std::lround(kMillion * counts.leftOut)));
+  setCount(stats, "sight_lost_per_million", uint64_t(std::lround(kMillion * counts.lost)));
 }
 
 ReceiverPoints Renderer::seenPoints() const {

@@ -44,7 +44,7 @@ struct WayBeyond {
 
 // How trees are followed.
 struct TreeSettings {
-  float leastWeight = 8e-4f;  // of a way, of what its tree shows in all; weaker ones are left out
+  float leastWeight = 7e-4f;  // of a way, of what its tree shows in all; weaker ones are left out
   bool tellsWaysBeyond = false;
 };
 
