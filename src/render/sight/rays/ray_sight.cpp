@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "geometry/bounds.h"
 #include "shaders/render/sight/rays/caster_pixels_frag.h"
 #include "shaders/techniques/whole_picture_vert.h"
 
