@@ -252,6 +252,13 @@ void CommandList::copy(const Buffer& from, VkDeviceSize fromOffset, const Image&
   vkCmdCopyBufferToImage(commandBuffer_, from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
 }
 
+void CommandList::copy(const Buffer& from, VkDeviceSize fromOffset, const Image& to, const Region& region) {
+  VkBufferImageCopy part = regionOf(to, 0, 0, fromOffset);
+  part.imageOffset = {region.corner.x, region.corner.y, 0};
+  part.imageExtent = {region.size.x, region.size.y, 1};
+  vkCmdCopyBufferToImage(commandBuffer_, from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &part);
+}
+
 void CommandList::copy(const Image& from, uint32_t layer, const Buffer& to, VkDeviceSize toOffset) {
   const VkBufferImageCopy region = regionOf(from, layer, 0, toOffset);
   vkCmdCopyImageToBuffer(commandBuffer_, from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);

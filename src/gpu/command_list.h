@@ -119,6 +119,8 @@ class CommandList {
             VkDeviceSize toOffset = 0);
   void copy(const Buffer& from, VkDeviceSize fromOffset, const Image& to, uint32_t layer = 0,
             uint32_t mipLevel = 0);
+  // The texels of a region, row by row without gaps.
+  void copy(const Buffer& from, VkDeviceSize fromOffset, const Image& to, const Region& region);
   void copy(const Image& from, uint32_t layer, const Buffer& to, VkDeviceSize toOffset = 0);
 
   VkCommandBuffer handle() const { return commandBuffer_; }

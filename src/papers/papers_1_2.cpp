@@ -79,6 +79,7 @@ Scene moved(const Scene& start, int frame) {
 
 double framesPerSecond(gpu::Device& device, const Scene& scene, const Row& row, Progress& progress) {
   RenderSettings render;
+  render.sight.method = SightMethod::slices;
   render.sight.slices = row.slices;
   FrameBench bench(device, scene, {}, render, progress);
   progress.begin(std::string("frames of ") + row.scene,

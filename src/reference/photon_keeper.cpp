@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/sight.h"
+#include "trace/surface_color.h"
 
 namespace nephroid {
 namespace {

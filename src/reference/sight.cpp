@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/color.h"
+#include "trace/surface_color.h"
 
 namespace nephroid {
 namespace {
@@ -27,37 +28,7 @@ vec3 fluxInBand(const StoredPhoton& photon, bool isSightDispersed, uint32_t band
   return isSightDispersed ? photon.flux * bands[band].weight : photon.flux;
 }
 
-vec4 texel(const Texture& texture, int x, int y) {
-  const auto wrapped = [](int i, uint32_t size) {
-    const int n = static_cast<int>(size);
-    return static_cast<std::size_t>(((i % n) + n) % n);
-  };
-  return texture.texels[wrapped(y, texture.height) * texture.width + wrapped(x, texture.width)];
-}
-
-vec3 sampleBilinear(const Texture& texture, vec2 coordinate) {
-  const vec2 place = (coordinate - glm::floor(coordinate)) * vec2(texture.width, texture.height) - 0.5f;
-  const vec2 first = glm::floor(place);
-  const vec2 after = place - first;
-  const int x = static_cast<int>(first.x), y = static_cast<int>(first.y);
-  const vec4 upper = glm::mix(texel(texture, x, y), texel(texture, x + 1, y), after.x);
-  const vec4 lower = glm::mix(texel(texture, x, y + 1), texel(texture, x + 1, y + 1), after.x);
-  return vec3(glm::mix(upper, lower, after.y));
-}
-
 }  // namespace
-
-vec3 diffuseReflectance(const Scene& scene, const Hit& hit) {
-  const Object& object = scene.objects[hit.object];
-  const Material& material = scene.materialOf(object);
-  const Mesh& mesh = scene.meshOf(object);
-  if (material.colorTexture == kNone || mesh.texcoords.empty()) return material.color;
-  const uvec3& corners = mesh.triangles[hit.triangle];
-  const vec2 coordinate = mesh.texcoords[corners.x] * (1 - hit.barycentric.x - hit.barycentric.y) +
-                          mesh.texcoords[corners.y] * hit.barycentric.x +
-                          mesh.texcoords[corners.z] * hit.barycentric.y;
-  return material.color * sampleBilinear(scene.textures[material.colorTexture], coordinate);
-}
 
 Sight::Sight(const Scene& sceneToSee, const Boundaries& sceneBoundaries, const Lights& sceneLights)
     : scene_(sceneToSee), boundaries_(sceneBoundaries), lights_(sceneLights) {}

@@ -75,7 +75,4 @@ class Sight {
   const Lights& lights_;
 };
 
-// The reflectance of a diffuse surface at a hit, with its texture.
-vec3 diffuseReflectance(const Scene& scene, const Hit& hit);
-
 }  // namespace nephroid

@@ -99,7 +99,10 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       programs_(createFramePrograms(
           device, {hasEmission(transport.scene()), transport.scene().medium.has_value(), hasTurbidWater_})),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
+      isByRays_(settings.sight.method == SightMethod::rays && !technique.traits().coversSquares),
       sight_(device, settings.sight),
+      raySight_(device, hasTurbidWater_),
+      waysInWater_(device, isByRays_),
       directLight_(device, transport.scene(), shadowMapSizeOf(settings)),
       shafts_(device, transport.scene(), settings.size, settings.shafts),
       sums_(device) {
@@ -188,7 +191,13 @@ void Renderer::drawSample(vec2 at, Remade remade, std::vector<PassTime>& passes)
   remade.sight = remade.sight || seenAt_ != at;
   if (remade.sight) {
     look(at);
-    onHost(passes, "sight", [&] { sight_.update(transport_, view_, settings_.size, extents_); });
+    onHost(passes, "sight", [&] {
+      if (isByRays_)
+        raySight_.update(transport_, view_, settings_.size, extents_);
+      else
+        sight_.update(transport_, view_, settings_.size, extents_);
+      waysInWater_.update(transport_, view_, settings_.size, extents_, casterRegion());
+    });
   }
   ensureImages();
   drawFrame(remade, passes);
@@ -250,7 +259,10 @@ void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
     if (shafts_) commands.pass("depths of the air", [&] { shafts_.recordDepths(commands); });
     if (remade.sight) {
       commands.pass("receivers", [&] { drawReceivers(commands); });
-      sight_.record(commands, gpuScene_, images_);
+      if (isByRays_)
+        raySight_.record(commands, images_);
+      else
+        sight_.record(commands, gpuScene_, images_);
     }
     if (!shafts_) illuminate(commands);
   });
@@ -285,14 +297,20 @@ void Renderer::illuminate(gpu::CommandList& commands) {
     commands.clear(images_.wayStart, vec4(0));
     commands.clear(images_.scattered, vec4(0));
   }
-  light(commands, images_.seen[kSeen], std::nullopt);
-  if (sight_.reflects()) light(commands, images_.seen[kSeenReflected], sight_.region());
+  const auto lightSeen = [&](uint32_t which, const std::optional<gpu::Region>& region) {
+    const SeenImages& seen = images_.seen[which];
+    light(commands, {&seen.position, &seen.normal, region}, seen.directLux, seen.causticsLux);
+  };
+  lightSeen(kSeen, std::nullopt);
+  if (isByRays_ && raySight_.hasPoints())
+    light(commands, raySight_.points(), raySight_.directLux(), raySight_.causticsLux());
+  if (sight_.reflects()) lightSeen(kSeenReflected, sight_.region());
   if (sight_.disperses())
-    for (const uint32_t channel : {kSeenGreen, kSeenBlue})
-      light(commands, images_.seen[channel], sight_.region());
-  for (const WaterInSight& water : sight_.waters()) {
+    for (const uint32_t channel : {kSeenGreen, kSeenBlue}) lightSeen(channel, sight_.region());
+  const CasterImages casters = isByRays_ ? raySight_.casterImages() : sight_.casterImages();
+  for (const WaterInSight& water : waysInWater_.waters()) {
     commands.pass("ways in water", [&] {
-      sight_.recordWays(commands, water, images_, images_.wayStart, images_.wayDirection);
+      waysInWater_.record(commands, water, images_, casters, images_.wayStart, images_.wayDirection);
     });
     technique_.scatter(commands, {&images_.wayStart, &images_.wayDirection, water.object}, images_.scattered);
   }
@@ -300,14 +318,13 @@ void Renderer::illuminate(gpu::CommandList& commands) {
     commands.pass("shafts", [&] { shafts_.record(commands, directLight_, gpuScene_, images_.depth); });
 }
 
-void Renderer::light(gpu::CommandList& commands, const SeenImages& seen,
-                     const std::optional<gpu::Region>& region) {
-  const ReceiverPoints points{&seen.position, &seen.normal, region};
+void Renderer::light(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& directLux,
+                     const gpu::Image& causticsLux) {
   commands.pass("direct light", [&] {
-    clearRegion(commands, seen.causticsLux, region);
-    directLight_.record(commands, gpuScene_, points, seen.directLux);
+    clearRegion(commands, causticsLux, points.region);
+    directLight_.record(commands, gpuScene_, points, directLux);
   });
-  technique_.shade(commands, points, seen.causticsLux);
+  technique_.shade(commands, points, causticsLux);
 }
 
 // Where there are no casters as if there were none at all, which is less work.
@@ -320,8 +337,6 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
     for (const SeenImages& one : images_.seen) all.push_back(one.position ? &(one.*image) : &(seen.*image));
     return all;
   };
-  const bool isEyeInWater = !sight_.waters().empty() && sight_.waters().back().constants.kind == kWayFromEye;
-  const vec3 extinctionAtEye = isEyeInWater ? sight_.waters().back().extinction : vec3(0);
   const auto draw = [&](const CasterTraits& traits, const gpu::Region& region) {
     gpu::RenderTargets rendered;
     for (const gpu::Image* target : targets) rendered.colors.push_back({target, 0, clear});
@@ -329,23 +344,28 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
     commands.render(rendered, [&] {
       commands.draw(programs.at(traits), 3, 1,
                     CompositeConstants{gpuScene_.materials(), environment_.ambient, environment_.background,
-                                       exposure_, extinctionAtEye},
+                                       exposure_, waysInWater_.extinctionAtEye()},
                     {{"normal", ofEach(&SeenImages::normal)},
                      {"albedo", ofEach(&SeenImages::albedo)},
                      {"transmittance", ofEach(&SeenImages::transmittance)},
                      {"directLux", ofEach(&SeenImages::directLux)},
                      {"causticsLux", ofEach(&SeenImages::causticsLux)},
+                     {"sightRest", raySight_.rest()},
+                     {"sightRanges", raySight_.ranges()},
+                     {"pointFactors", raySight_.factors()},
+                     {"pointDirectLux", raySight_.directLux()},
+                     {"pointCausticsLux", raySight_.causticsLux()},
                      {"shafts", shafts_ ? shafts_.image() : seen.albedo},
                      {"wayStart", hasTurbidWater_ ? images_.wayStart : seen.albedo},
                      {"scattered", hasTurbidWater_ ? images_.scattered : seen.albedo}});
     });
   };
-  for (const gpu::Region& part : around(sight_.region(), settings_.size)) {
+  for (const gpu::Region& part : around(casterRegion(), settings_.size)) {
     draw({}, part);
     commands.barrier();
   }
-  if (sight_.region().size.x == 0) return;
-  draw({true, sight_.reflects() || sight_.disperses(), sight_.disperses()}, sight_.region());
+  if (casterRegion().size.x == 0) return;
+  draw({true, sight_.reflects() || sight_.disperses(), sight_.disperses(), isByRays_}, casterRegion());
 }
 
 // Adds what was seen and lit last to the sums.

@@ -10,7 +10,9 @@
 #include "render/last_scene.h"
 #include "render/samples/sample_sums.h"
 #include "render/settings.h"
+#include "render/sight/rays/ray_sight.h"
 #include "render/sight/sight_pass.h"
+#include "render/sight/ways_in_water.h"
 #include "render/view.h"
 #include "techniques/technique.h"
 #include "transport/scene_transport.h"
@@ -57,6 +59,9 @@ class Renderer {
   // middle.
   Image layers();
 
+  // Adds the counts of the view through casters by rays, of the last frame that made it anew.
+  void tellSight(Stats& stats) const;
+
   // The images of the last frame.
   const FrameImages& images() const { return images_; }
 
@@ -79,7 +84,10 @@ class Renderer {
   void drawFrame(const Remade& remade, std::vector<PassTime>& passes);
   void drawReceivers(gpu::CommandList& commands);
   void illuminate(gpu::CommandList& commands);
-  void light(gpu::CommandList& commands, const SeenImages& seen, const std::optional<gpu::Region>& region);
+  void light(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& directLux,
+             const gpu::Image& causticsLux);
+  // The region of the picture that holds all casters.
+  const gpu::Region& casterRegion() const { return isByRays_ ? raySight_.region() : sight_.region(); }
   void composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
                  const std::vector<const gpu::Image*>& targets, const std::optional<vec4>& clear);
   std::vector<PassTime> addLayers();
@@ -93,7 +101,10 @@ class Renderer {
   GpuScene gpuScene_;
   FramePrograms programs_;
   FrameImages images_;
+  bool isByRays_ = false;  // the view through casters; otherwise by slices
   SightPass sight_;
+  RaySight raySight_;
+  WaysInWater waysInWater_;
   DirectLight directLight_;
   Shafts shafts_;
   SampleSums sums_;

@@ -55,6 +55,9 @@ SHARED_CONSTANT uint kSeenBlue = 2u;   // the same in blue
 SHARED_CONSTANT uint kSeenReflected = 3u;  // the receiver that glass reflects
 SHARED_CONSTANT uint kSeenCount = 4u;
 
+// Of the images that hold the points of sight by rays.
+SHARED_CONSTANT uint kPointsInRow = 1024u;
+
 struct CompositeConstants {
   BUFFER_ADDRESS(SceneMaterials) materials;
   vec3 ambient;     // lux

@@ -1,4 +1,5 @@
 // What a frame leaves behind, for files and for looking into its passes.
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <string_view>
 
@@ -22,6 +23,18 @@ ByteImage Renderer::picture() const {
   return gpu::downloadPicture(device_, images_.picture);
 }
 
+void Renderer::tellSight(Stats& stats) const {
+  if (!isByRays_ || casterRegion().size.x == 0) return;
+  const RaySightCounts& counts = raySight_.counts();
+  setCount(stats, "sight_pixels", counts.pixels);
+  setCount(stats, "sight_traced_pixels", counts.traced);
+  setCount(stats, "sight_rays", counts.rays);
+  setCount(stats, "sight_points", counts.points);
+  constexpr double kMillion = 1e6;
+  setCount(stats, "sight_left_out_per_million", uint64_t(std::lround(kMillion * counts.leftOut)));
+  setCount(stats, "sight_lost_per_million", uint64_t(std::lround(kMillion * counts.lost)));
+}
+
 ReceiverPoints Renderer::seenPoints() const {
   return {&images_.seen[kSeen].position, &images_.seen[kSeen].normal};
 }
@@ -37,9 +50,9 @@ std::vector<PassOutput> Renderer::outputs() const {
                          {"receivers", "normals", &seen.normal, kShowDirection},
                          {"receivers", "positions", &seen.position, kShowPlace},
                          {"receivers", "depth", &images_.depth, kShowNearness}});
+  if (casterRegion().size.x > 0) all.push_back({"casters", "normals", &images_.casterNormal, kShowDirection});
   if (sight_.region().size.x > 0)
-    all.insert(all.end(), {{"casters", "normals", &images_.casterNormal, kShowDirection},
-                           {"seen through casters", "transmittance", &seen.transmittance, kShowFactor}});
+    all.push_back({"seen through casters", "transmittance", &seen.transmittance, kShowFactor});
   if (sight_.reflects())
     all.insert(all.end(),
                {{"reflected by casters", "albedo", &images_.seen[kSeenReflected].albedo, kShowFactor},
@@ -65,7 +78,7 @@ Image Renderer::layers() {
 
   auto normals = gpu::download<vec4>(device_, images_.seen[kSeen].normal);
   const auto casterNormals = gpu::download<vec4>(device_, images_.casterNormal);
-  const gpu::Region& region = sight_.region();
+  const gpu::Region& region = casterRegion();
   const uvec2 first(region.corner);
   for (uint32_t y = first.y; y < first.y + region.size.y; ++y)
     for (uint32_t x = first.x; x < first.x + region.size.x; ++x) {

@@ -48,12 +48,15 @@ FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& lu
   programs.texturedReceiver =
       gpu::createRasterProgram(device, "textured receiver", shaders::render_surface_vert,
                                shaders::render_receiver_frag, receiver, {{"kHasTexture", VK_TRUE}});
-  for (const CasterTraits traits : {CasterTraits{false, false, false}, CasterTraits{true, false, false},
-                                    CasterTraits{true, true, false}, CasterTraits{true, true, true}}) {
+  for (const CasterTraits traits :
+       {CasterTraits{false, false, false, false}, CasterTraits{true, false, false, false},
+        CasterTraits{true, true, false, false}, CasterTraits{true, true, true, false},
+        CasterTraits{true, false, false, true}}) {
     const std::vector<gpu::SpecializationConstant> choices{
         {"kHasEmission", luminance.hasEmission}, {"kSeesCasters", traits.areSeen},
         {"kReflects", traits.reflect},           {"kDisperses", traits.disperse},
-        {"kHasAir", luminance.hasAir},           {"kHasTurbidWater", luminance.hasTurbidWater}};
+        {"kHasAir", luminance.hasAir},           {"kHasTurbidWater", luminance.hasTurbidWater},
+        {"kSeenByRays", traits.byRays}};
     programs.picture[traits] =
         gpu::createRasterProgram(device, "picture", shaders::techniques_whole_picture_vert,
                                  shaders::render_picture_frag, {.colors = {{kBytes}}}, choices);

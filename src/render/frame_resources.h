@@ -44,8 +44,10 @@ struct CasterTraits {
   bool areSeen = false;
   bool reflect = false;
   bool disperse = false;
+  bool byRays = false;  // the other two do not matter then
   bool operator<(const CasterTraits& other) const {
-    return std::tie(areSeen, reflect, disperse) < std::tie(other.areSeen, other.reflect, other.disperse);
+    return std::tie(areSeen, reflect, disperse, byRays) <
+           std::tie(other.areSeen, other.reflect, other.disperse, other.byRays);
   }
 };
 

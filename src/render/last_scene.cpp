@@ -33,12 +33,13 @@ Remade LastScene::replace(const Scene& scene, bool keepsLight, bool beamsFollowC
   const bool cameraStands = camera == camera_;
   const bool lightsStand = scene.lights == lights_;
   Remade remade;
-  remade.sight = !(objectsStand && cameraStands);
+  remade.sight = !(objectsStand && cameraStands && scene.environment == environment_);
   remade.shadowMaps = !(keepsLight && objectsStand && shapes(scene.lights) == shapes(lights_));
   remade.beams = !(keepsLight && objectsStand && lightsStand && (cameraStands || !beamsFollowCamera));
 
   isThere_ = true;
   camera_ = camera;
+  environment_ = scene.environment;
   objects_ = std::move(objects);
   materials_ = scene.materials;
   lights_ = scene.lights;

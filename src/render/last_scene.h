@@ -9,12 +9,13 @@
 namespace nephroid {
 
 struct Remade {
-  bool sight = true;  // the surfaces that the camera sees
+  bool sight = true;  // the surfaces that the camera sees, and what they show by no light
   bool shadowMaps = true;
   bool beams = true;  // the technique's work that does not depend on a view
 };
 
-// The parts of the last frame's scene that may change: placements, materials, water, lights and camera.
+// The parts of the last frame's scene that may change: placements, materials, water, lights, camera and
+// environment.
 class LastScene {
  public:
   // Returns what has to be computed again for `scene`, and stores it as the last scene. Without `keepsLight`,
@@ -32,6 +33,7 @@ class LastScene {
 
   bool isThere_ = false;
   Camera camera_;
+  Environment environment_;
   std::vector<Standing> objects_;
   std::vector<Material> materials_;
   std::vector<Light> lights_;

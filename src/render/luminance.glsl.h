@@ -10,6 +10,7 @@ layout(constant_id = 2) const bool kReflects = false;     // with kSeesCasters: 
 layout(constant_id = 3) const bool kDisperses = false;    // with kSeesCasters
 layout(constant_id = 4) const bool kHasAir = false;
 layout(constant_id = 5) const bool kHasTurbidWater = false;
+layout(constant_id = 6) const bool kSeenByRays = false;  // with kSeesCasters: casters' pixels, by rays
 layout(push_constant, scalar) uniform Constants {
   CompositeConstants constants;
 };
@@ -24,6 +25,14 @@ uniform texture2D shafts;
 // With kHasTurbidWater: the parts of view rays in water, and the light that it scatters along them (nit).
 uniform texture2D wayStart;
 uniform texture2D scattered;
+// With kSeenByRays, of the pixels: rgb is what they show by no light (nit), a > 0 where there is a caster;
+// and the first of their points, and their number.
+uniform texture2D sightRest;
+uniform utexture2D sightRanges;
+// Of the points, kPointsInRow in a row: luminance of the pixel for each lux (nit), and the light there.
+uniform texture2D pointFactors;
+uniform texture2D pointDirectLux;
+uniform texture2D pointCausticsLux;
 
 const float kInversePi = 0.318309886;
 
@@ -61,7 +70,24 @@ Luminance dimmed(vec3 factor, Luminance seen) {
   return Luminance(factor * seen.direct, factor * seen.caustics, factor * seen.rest);
 }
 
+Luminance seenByRays(ivec2 pixel, vec3 rest) {
+  Luminance sum = Luminance(vec3(0), vec3(0), rest);
+  const uvec2 range = texelFetch(sightRanges, pixel, 0).xy;
+  for (uint i = range.x; i < range.x + range.y; ++i) {
+    const ivec2 point = ivec2(i % kPointsInRow, i / kPointsInRow);
+    const vec3 factor = texelFetch(pointFactors, point, 0).rgb;
+    sum.direct += factor * texelFetch(pointDirectLux, point, 0).rgb;
+    sum.caustics += factor * texelFetch(pointCausticsLux, point, 0).rgb;
+  }
+  return sum;
+}
+
 Luminance surfaceAt(ivec2 pixel) {
+  if (kSeesCasters && kSeenByRays) {
+    const vec4 rest = texelFetch(sightRest, pixel, 0);
+    if (rest.a > 0) return seenByRays(pixel, rest.rgb);
+    return dimmed(leftByWater(pixel), LUMINANCE_OF(kSeen, pixel));
+  }
   Luminance seen = LUMINANCE_OF(kSeen, pixel);
   if (!kSeesCasters) return dimmed(leftByWater(pixel), seen);
   const vec4 through = texelFetch(transmittance[kSeen], pixel, 0);

@@ -75,12 +75,16 @@ inline float iorOf(std::span<const Material* const> materials, uint32_t object, 
   return object == kNone ? 1.0f : materials[object]->ior[int(channel)];
 }
 
-// What a sheet too thin to bend light lets through: both its faces, multiple reflections between them
-// included. `normal` faces the light.
-inline vec3 thinWallTransmittance(const Material& material, uint32_t channel, vec3 direction, vec3 normal) {
+// The part (0..1) of light that a sheet too thin to bend it lets through, without its color: by both its
+// faces, multiple reflections between them included. `normal` faces the light. The rest is reflected.
+inline float thinWallTransmitted(const Material& material, uint32_t channel, vec3 direction, vec3 normal) {
   const float reflectance =
       fresnelReflectance(std::min(1.0f, -dot(direction, normal)), 1 / material.ior[int(channel)]);
-  return material.color * ((1 - reflectance) / (1 + reflectance));
+  return (1 - reflectance) / (1 + reflectance);
+}
+
+inline vec3 thinWallTransmittance(const Material& material, uint32_t channel, vec3 direction, vec3 normal) {
+  return material.color * thinWallTransmitted(material, channel, direction, normal);
 }
 
 }  // namespace nephroid

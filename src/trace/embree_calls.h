@@ -22,8 +22,11 @@ inline void embreeOccluded(RTCScene scene, RTCRay& ray) {
 inline void embreeOccluded(RTCScene scene, const int* valid, RTCRay8& rays) {
   rtcOccluded8(valid, scene, &rays);
 }
-inline void embreeIntersect(RTCScene scene, const int* valid, RTCRayHit8& rays) {
-  rtcIntersect8(valid, scene, &rays);
+inline void embreeIntersect(RTCScene scene, const int* valid, RTCRayHit8& rays, bool areAlike) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  if (areAlike) arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, &rays, &arguments);
 }
 #else
 inline void embreeIntersect(RTCScene scene, RTCRayHit& query) {
@@ -42,9 +45,10 @@ inline void embreeOccluded(RTCScene scene, const int* valid, RTCRay8& rays) {
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcOccluded8(valid, scene, &context, &rays);
 }
-inline void embreeIntersect(RTCScene scene, const int* valid, RTCRayHit8& rays) {
+inline void embreeIntersect(RTCScene scene, const int* valid, RTCRayHit8& rays, bool areAlike) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
+  if (areAlike) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect8(valid, scene, &context, &rays);
 }
 #endif

@@ -302,7 +302,7 @@ void RayScene::occluded(vec3 origin, std::span<const vec3> directions, float nea
   }
 }
 
-void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool areAlike) const {
   constexpr std::size_t kWidth = 8;
   countRays(rays.size());
   for (std::size_t first = 0; first < rays.size(); first += kWidth) {
@@ -315,7 +315,7 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    embreeIntersect(impl_->root(), valid, packet);
+    embreeIntersect(impl_->root(), valid, packet, areAlike);
     for (std::size_t i = 0; i < count; ++i) {
       hits[first + i].object = kNone;
       if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;

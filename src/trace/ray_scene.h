@@ -72,8 +72,9 @@ class RayScene {
   bool intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;
   // Many rays: those near each other should follow one another. What each hits first; `object` is kNone where
-  // it hits nothing. Traces in the calling thread.
-  void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
+  // it hits nothing. Traces in the calling thread. `areAlike`: neighbors have much the same way, as a
+  // camera's; faster then, and slower where they do not.
+  void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool areAlike = false) const;
   void occluded(std::span<const Ray> rays, std::span<uint8_t> isOccluded) const;
   // Whether rays from one origin along each of `directions` (unit) meet anything. Traces eight rays at a
   // time, which is faster. `isOccluded`: 0 or 1 for each direction.

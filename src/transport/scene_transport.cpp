@@ -79,6 +79,7 @@ void SceneTransport::place(const Scene& scene) {
   checkMoved(scene, now_);
   now_.time = scene.time;
   now_.camera = scene.camera;
+  now_.environment = scene.environment;
   now_.objects = scene.objects;
   now_.materials = scene.materials;
   now_.lights = scene.lights;

@@ -63,6 +63,8 @@ std::vector<Scene> moved() {
   next().materials[1].ior = vec3(1.4f);
   Scene& waves = next();
   waves.meshes[3] = makeWater(*waves.objects[3].water, 0.2);
+  next().environment.ambient = vec3(3, 2, 1);
+  next().environment.background = vec3(1, 2, 3);
   next().camera.exposure = 2;
   next().camera.verticalFov = 30;
   return scenes;

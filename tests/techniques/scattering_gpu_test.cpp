@@ -174,7 +174,8 @@ TEST_F(ScatteringGpuTest, WaterTakesItsPartOfWhatAnEyeInItSees) {
 TEST_F(ScatteringGpuTest, IsLeftToLightVolumes) {
   const Scene scene = pool({0, -1, 0});
   EXPECT_EQ(shaftsOf(scene, "shafts.", "none"), vec3(0));
-  EXPECT_EQ(shaftsOf(scene, "shafts.", "adaptive-beams"), shaftsOf(scene));
+  // Whose own view goes by slices.
+  expectNear(shaftsOf(scene, "shafts.", "adaptive-beams"), glm::dvec3(shaftsOf(scene)), 1e-3);
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ SHARED_BEGIN
 struct CasterConstants {
   BUFFER_ADDRESS(SightVertices) vertices;
   BUFFER_ADDRESS(SightCamera) camera;
-  uint number;  // of the caster, from 1
+  uint number;  // of the caster: its object + 1
   uint marks;   // kSight...
 };
 
@@ -122,7 +122,7 @@ struct SightConstants {
   float reach;  // m, the largest distance of a receiver from the center
   vec3 eye;     // m
   float ior;    // of a dielectric, in the middle channel
-  uint number;  // of the caster, from 1
+  uint number;  // of the caster: its object + 1
   uint isThinWalled;
 };
 

@@ -4,14 +4,12 @@
 #include <optional>
 
 #include "geometry/bounds.h"
-#include "scene/volume.h"
 #include "shaders/render/sight/caster_frag.h"
 #include "shaders/render/sight/caster_vert.h"
 #include "shaders/render/sight/reflected_frag.h"
 #include "shaders/render/sight/seen_frag.h"
 #include "shaders/render/sight/slice_frag.h"
 #include "shaders/render/sight/slice_vert.h"
-#include "shaders/render/sight/ways_frag.h"
 #include "shaders/techniques/whole_picture_vert.h"
 
 namespace nephroid {
@@ -23,7 +21,6 @@ constexpr VkFormat kNormals = VK_FORMAT_R32_UINT;
 constexpr VkFormat kReceivers = VK_FORMAT_R32G32B32A32_UINT;
 constexpr VkFormat kAlbedos = VK_FORMAT_R32G32_UINT;
 constexpr uint32_t kFaces = 6;
-constexpr float kFarthestWay = 1e5f;  // m in water, where nothing is met
 
 gpu::Program casterProgram(gpu::Device& device, const char* name, const gpu::RasterState& depth) {
   gpu::RasterState state = depth;
@@ -62,17 +59,13 @@ SightPass::SightPass(gpu::Device& device, const SightSettings& settings)
       reflectedProgram_(
           lookingProgram(device, "reflected by a caster", shaders::render_sight_reflected_frag)),
       sliceProgram_(sliceProgram(device, "slice", VK_FALSE)),
-      texturedSliceProgram_(sliceProgram(device, "textured slice", VK_TRUE)),
-      waysProgram_(gpu::createRasterProgram(device, "ways in water", shaders::techniques_whole_picture_vert,
-                                            shaders::render_sight_ways_frag,
-                                            {.colors = {{kSightFormat}, {kSightFormat}}})) {}
+      texturedSliceProgram_(sliceProgram(device, "textured slice", VK_TRUE)) {}
 
 void SightPass::update(SceneTransport& transport, const View& view, uvec2 pictureSize,
                        const std::vector<MeshExtent>& extents) {
   const Scene& scene = transport.scene();
   casters_.clear();
   meshes_.clear();
-  waters_.clear();
   receivers_.clear();
   receiverColors_.clear();
   receiverMaterials_.clear();
@@ -95,11 +88,7 @@ void SightPass::update(SceneTransport& transport, const View& view, uvec2 pictur
     const gpu::Region region =
         regionOf(view, pictureSize, placedCorners(extents[object.mesh].box, object.placement));
     if (region.size.x > 0) add(transport, view, i, extents[object.mesh], region, media);
-    if (object.water) addWater(scene, view, i, pictureSize, media.top() == i, region.size.x > 0);
   }
-  for (WaterInSight& water : waters_)
-    water.constants.region = uvec4(region_.corner.x, region_.corner.y, region_.size.x, region_.size.y);
-  std::ranges::stable_sort(waters_, {}, [](const WaterInSight& water) { return water.constants.kind; });
   upload(view);
   ensureImages(pictureSize);
 }
@@ -121,7 +110,7 @@ void SightPass::add(SceneTransport& transport, const View& view, uint32_t index,
   for (const ReceiverBounds& receiver : receivers_)
     for (const vec3 corner : receiver.corners)
       constants.reach = std::max(constants.reach, distance(corner, constants.center));
-  constants.number = uint32_t(casters_.size()) + 1;
+  constants.number = index + 1;
   constants.isThinWalled = material.thinWalled;
   for (uint32_t channel = 0; channel < caster.channels(); ++channel) {
     meshes_.push_back(sightMesh(scene, transport.source(), transport.rayScene(),
@@ -135,29 +124,6 @@ void SightPass::add(SceneTransport& transport, const View& view, uint32_t index,
   disperses_ |= caster.disperses;
   reflects_ |= !caster.isMirror;
   casters_.push_back(caster);
-}
-
-void SightPass::addWater(const Scene& scene, const View& view, uint32_t object, uvec2 pictureSize,
-                         bool isInside, bool isInPicture) {
-  const Material& material = scene.materialOf(scene.objects[object]);
-  const vec3 extinction = extinctionOf(material);
-  if (extinction == vec3(0) || !(isInside || isInPicture)) return;
-  const PictureRays rays = raysOf(view);
-  WayConstants constants{};
-  constants.eye = view.eye;
-  constants.middle = rays.middle;
-  constants.right = rays.right;
-  constants.down = rays.down;
-  constants.imageSize = vec2(pictureSize);
-  constants.number = isInPicture ? uint32_t(casters_.size()) : 0;
-  constants.ior = material.ior.y;
-  constants.farthest = kFarthestWay;
-  const auto addWays = [&](uint kind) {
-    constants.kind = kind;
-    waters_.push_back({object, constants, extinction});
-  };
-  if (isInPicture) addWays(isInside ? kWayReflected : kWayFromSurface);
-  if (isInside) addWays(kWayFromEye);
 }
 
 void SightPass::upload(const View& view) {
@@ -347,20 +313,6 @@ void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, con
       });
     }
   }
-}
-
-void SightPass::recordWays(gpu::CommandList& commands, const WaterInSight& water, const FrameImages& images,
-                           const gpu::Image& start, const gpu::Image& direction) {
-  const bool hasCasters = !casters_.empty();
-  const gpu::Image& none = images.seen[kSeen].position;
-  commands.render({.colors = {{&start, 0, std::nullopt}, {&direction, 0, std::nullopt}}}, [&] {
-    commands.draw(waysProgram_, 3, 1, water.constants,
-                  {{"receiverPosition", images.seen[kSeen].position},
-                   {"casterPosition", hasCasters ? position_ : none},
-                   {"casterNormal", hasCasters ? images.casterNormal : none},
-                   {"casterExit", hasCasters ? exit_ : none},
-                   {"casterDirection", hasCasters ? direction_ : none}});
-  });
 }
 
 }  // namespace nephroid

@@ -16,7 +16,7 @@
 #include "render/shadow_maps.h"
 #include "render/sight/settings.h"
 #include "render/sight/slices.h"
-#include "render/sight/ways_data.h"
+#include "render/sight/ways_in_water.h"
 #include "render/view.h"
 #include "techniques/lattice.h"
 #include "transport/scene_transport.h"
@@ -28,13 +28,6 @@ struct ReceiverImages {
   gpu::Image depths;   // d32, reversed
   gpu::Image normals;  // r32ui: octahedral
   gpu::Image albedos;  // rg32ui: packSliceAlbedo
-};
-
-// Water in view that absorbs or scatters.
-struct WaterInSight {
-  uint32_t object = 0;
-  WayConstants constants{};
-  vec3 extinction{0};  // 1/m
 };
 
 // For each frame: call update, then record.
@@ -56,13 +49,11 @@ class SightPass {
   // The frame's slices that may hold receivers.
   std::vector<Lattice> lattices() const;
 
-  // The water in view; last, the water that the eye is in, if any.
-  const std::vector<WaterInSight>& waters() const { return waters_; }
-
-  // Finds the parts of view rays in this water. To be called after `record`. Writes two images of the
-  // picture's size.
-  void recordWays(gpu::CommandList& commands, const WaterInSight& water, const FrameImages& images,
-                  const gpu::Image& start, const gpu::Image& direction);
+  // As ways.frag reads them; none where no caster is in the picture.
+  CasterImages casterImages() const {
+    if (casters_.empty()) return {};
+    return {&position_, &exit_, &direction_};
+  }
 
   // Replaces receivers in `images` by those that casters show, and draws casters into the depth image.
   // Records its own passes.
@@ -84,8 +75,6 @@ class SightPass {
 
   void add(SceneTransport& transport, const View& view, uint32_t object, const MeshExtent& extent,
            const gpu::Region& region, const MediumStack& media);
-  void addWater(const Scene& scene, const View& view, uint32_t object, uvec2 pictureSize, bool isInside,
-                bool isInPicture);
   void upload(const View& view);
   void ensureImages(uvec2 pictureSize);
   void drawCasters(gpu::CommandList& commands, std::span<const SeenCaster> casters, uint32_t channel,
@@ -105,7 +94,6 @@ class SightPass {
   SightSettings settings_;
   gpu::Program casterProgram_, channelProgram_, seenProgram_, reflectedProgram_;
   gpu::Program sliceProgram_, texturedSliceProgram_;
-  gpu::Program waysProgram_;
   ReceiverImages receiverImages_;  // of one caster after the other
   // Of the picture's size, as caster.frag writes them.
   gpu::Image position_, exit_, direction_, receiver_;
@@ -114,7 +102,6 @@ class SightPass {
   // Of the frame being made.
   std::vector<SightMesh> meshes_;
   std::vector<SeenCaster> casters_;
-  std::vector<WaterInSight> waters_;
   std::vector<ReceiverBounds> receivers_;
   std::vector<vec3> receiverColors_;  // of the objects
   std::vector<uint32_t> receiverMaterials_;

@@ -24,8 +24,8 @@ constexpr uint32_t kMostCuts = 8;
 constexpr float kMostBend = 0.5f;  // pixels that a side's middle may show off the mean of its ends
 // Rays that differ by more go different ways: in direction, and, as parts of the caster's size, in where they
 // leave it.
-constexpr float kMostTurn = 0.35f;
-constexpr float kMostShift = 0.1f;
+constexpr float kMostTurnOfRays = 0.35f;
+constexpr float kMostShiftOfRays = 0.1f;
 constexpr float kInset = 1e-3f;  // rays of a cut triangle start this part of the way toward its middle
 
 struct Corner {
@@ -127,8 +127,8 @@ class Cutter {
   // By where they go: rays of a table and traced ones have no signatures in common.
   bool sameWay(const Corner& a, const Corner& b) const {
     if (isLost(a.ray) || isLost(b.ray)) return isLost(a.ray) && isLost(b.ray);
-    return distance(a.ray.direction, b.ray.direction) < kMostTurn &&
-           distance(a.ray.position, b.ray.position) < kMostShift * size_;
+    return distance(a.ray.direction, b.ray.direction) < kMostTurnOfRays &&
+           distance(a.ray.position, b.ray.position) < kMostShiftOfRays * size_;
   }
 
   bool isSteady(const Triangle& t) const {

@@ -7,6 +7,7 @@
 #include "optics/refraction.h"
 #include "render/sight/ways_data.h"
 
+layout(constant_id = 0) const bool kIsByRays = false;  // exits tell how long ways are, otherwise receivers
 layout(push_constant, scalar) uniform Constants {
   WayConstants constants;
 };
@@ -30,12 +31,13 @@ void fromEye(vec4 receiver, vec4 caster) {
 }
 
 void fromSurface(ivec2 pixel, vec4 receiver, vec4 caster) {
-  const vec3 start = texelFetch(casterExit, pixel, 0).xyz,
-             direction = normalize(texelFetch(casterDirection, pixel, 0).xyz);
+  const vec4 exit = texelFetch(casterExit, pixel, 0);
+  const vec3 start = exit.xyz, direction = normalize(texelFetch(casterDirection, pixel, 0).xyz);
   const vec3 normal = normalize(texelFetch(casterNormal, pixel, 0).xyz);  // on the side of the eye
   const bool isReflected = constants.kind == kWayReflected;
   const bool isThere = caster.a == float(constants.number) && (dot(direction, normal) < 0) != isReflected;
-  const float way = receiver.a > 0 ? dot(receiver.xyz - start, direction) : constants.farthest;
+  float way = receiver.a > 0 ? dot(receiver.xyz - start, direction) : constants.farthest;
+  if (kIsByRays) way = min(exit.a, constants.farthest);
   const vec3 before = caster.xyz - constants.eye;
   const float eta = 1 / constants.ior;
   const float through =

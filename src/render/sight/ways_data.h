@@ -22,7 +22,7 @@ struct WayConstants {
   vec3 down;
   uvec4 region;    // of the picture where casters may be: corner, size
   vec2 imageSize;  // pixels
-  uint number;     // of the caster; 0: it is not in the picture
+  uint number;     // of the caster
   uint kind;       // kWay...
   float ior;       // in the middle channel
   float farthest;  // m, where nothing is met
