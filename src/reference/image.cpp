@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/color.h"
+#include "core/pixel_filter.h"
 
 namespace nephroid {
 namespace {
@@ -35,10 +36,24 @@ uint32_t looksOf(const ReferenceSettings& settings, uint32_t parts) {
   return std::max(parts, uint32_t(std::clamp(settings.photons / pixels, uint64_t{1}, kMostLooks)));
 }
 
-// Pixels from the picture's corner, by a filter as wide as the pixel. Evenly spread numbers in [0, 1) give
-// evenly spread places.
+// Pixels from the picture's corner, by the filter. Evenly spread numbers in [0, 1) give evenly spread places.
 vec2 placeInPixel(uvec2 pixel, float u) {
-  return vec2(pixel) + pointOnCurve(double(u));
+  const vec2 even = pointOnCurve(double(u));
+  return vec2(pixel) + 0.5f + vec2(quickFilteredOffset(even.x), quickFilteredOffset(even.y));
+}
+
+// Adds a splat to the pixels whose filter it is in.
+void addSplat(const Splat& splat, uvec2 size, std::vector<vec3>& layer, std::vector<vec3>& total) {
+  const ivec2 low = max(ivec2(glm::ceil(splat.place - 0.5f - float(kFilterRadius))), ivec2(0));
+  const ivec2 high = min(ivec2(glm::floor(splat.place - 0.5f + float(kFilterRadius))), ivec2(size) - 1);
+  for (int y = low.y; y <= high.y; ++y)
+    for (int x = low.x; x <= high.x; ++x) {
+      const vec2 offset = splat.place - vec2(float(x), float(y)) - 0.5f;
+      const float weight = float(filterDensity(double(offset.x)) * filterDensity(double(offset.y)));
+      const std::size_t pixel = std::size_t(y) * size.x + std::size_t(x);
+      layer[pixel] += weight * splat.luminance;
+      total[pixel] += weight * splat.luminance;
+    }
 }
 
 template <class T>
@@ -145,10 +160,8 @@ void ReferenceImage::pass() {
   for (pass.part = 0; pass.part < pass.parts; ++pass.part) {
     std::vector<Splat> splats;
     look(pass, traceLight(pass, splats), sums);
-    for (const Splat& splat : splats) {
-      (splat.isScattered ? sums.shafts : sums.caustics)[splat.pixel] += splat.luminance;
-      sums.total[splat.pixel] += splat.luminance;
-    }
+    for (const Splat& splat : splats)
+      addSplat(splat, settings_.size, splat.isScattered ? sums.shafts : sums.caustics, sums.total);
   }
   ++passesDone_;
   total_.add(sums.total, passesDone_);

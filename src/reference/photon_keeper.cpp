@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pixel_filter.h"
 #include "trace/surface_color.h"
 
 namespace nephroid {
@@ -35,7 +36,7 @@ void PhotonKeeper::segment(const PhotonSegment& segment) {
     photon.object = segment.medium;
     keep(photon, inVolumes);
     if (!settings_.splats || segment.medium != settings_.mediumOfCamera) continue;
-    const auto seen = settings_.camera->project(photon.position);
+    const auto seen = settings_.camera->project(photon.position, float(kFilterRadius));
     if (!seen) continue;
     const vec3 scattered = boundaries.scattering(segment.medium, photon.position) *
                            boundaries.phase(segment.medium, dot(photon.direction, seen->direction));
@@ -54,7 +55,7 @@ void PhotonKeeper::landing(const PhotonSegment& segment, const Hit& hit, vec3 fl
   photon.object = hit.object;
   keep(photon, onSurfaces);
   if (!settings_.splats) return;
-  const auto seen = settings_.camera->project(photon.position);
+  const auto seen = settings_.camera->project(photon.position, float(kFilterRadius));
   const float cosine = seen ? dot(photon.direction, seen->direction) : 0;
   if (cosine <= 0) return;
   const vec3 reflected = photon.flux * diffuseReflectance(*settings_.scene, hit) * (cosine / kPi);
@@ -78,7 +79,7 @@ void PhotonKeeper::splat(const PhotonSegment& segment, vec3 place, vec3 reflecte
   luminance *=
       settings_.boundaries->transmittance(settings_.mediumOfCamera, place, seen.direction, seen.distance);
   if (segment.isDispersed) luminance *= settings_.pass->bands[segment.band].weight;
-  splats.push_back({seen.pixel, segment.photon, isScattered, luminance});
+  splats.push_back({seen.place, segment.photon, isScattered, luminance});
 }
 
 }  // namespace nephroid

@@ -10,7 +10,7 @@ namespace nephroid {
 
 // Luminance (nit) that a photon adds to a pixel.
 struct Splat {
-  uint32_t pixel = 0;
+  vec2 place{0};        // pixels from the picture's upper left corner, or about it
   uint32_t photon = 0;  // in its pass
   bool isScattered = false;
   vec3 luminance{0};

@@ -18,15 +18,17 @@ Ray Pinhole::rayThrough(vec2 place) const {
   return {eye_, normalize(frame_[2] + at.x * width_ * frame_[0] - at.y * height_ * frame_[1])};
 }
 
-std::optional<Pinhole::Projection> Pinhole::project(vec3 place) const {
+std::optional<Pinhole::Projection> Pinhole::project(vec3 place, float margin) const {
   const vec3 offset = place - eye_;
   const vec3 local = glm::transpose(frame_) * offset;
   if (local.z <= 0) return std::nullopt;
   const vec2 at =
       (vec2(local.x / (local.z * width_), -local.y / (local.z * height_)) + 1.0f) * 0.5f * vec2(size_);
-  if (!(at.x >= 0 && at.y >= 0 && at.x < float(size_.x) && at.y < float(size_.y))) return std::nullopt;
+  if (!glm::all(glm::greaterThanEqual(at, vec2(-margin))) ||
+      !glm::all(glm::lessThan(at, vec2(size_) + margin)))
+    return std::nullopt;
   Projection seen;
-  seen.pixel = uint32_t(at.y) * size_.x + uint32_t(at.x);
+  seen.place = at;
   seen.distance = length(offset);
   seen.direction = -offset / seen.distance;
   // A pixel is a rectangle a meter before the camera; the picture is the mean over it.

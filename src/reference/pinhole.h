@@ -15,14 +15,15 @@ class Pinhole {
   // `place`: pixels from the upper left corner.
   Ray rayThrough(vec2 place) const;
 
-  // Where a point appears in the picture, and with which weight. Objects in between are not considered.
+  // Where a point appears, in the picture or `margin` pixels about it, and with which weight. Objects in
+  // between are not considered.
   struct Projection {
-    uint32_t pixel = 0;
+    vec2 place{0};           // pixels from the upper left corner
     vec3 direction{0};       // unit, from the place to the camera
     float distance = 0;      // m
     float perSteradian = 0;  // 1/sr, 1 over the pixel's solid angle seen from the camera
   };
-  std::optional<Projection> project(vec3 place) const;
+  std::optional<Projection> project(vec3 place, float margin = 0) const;
 
   vec3 position() const { return eye_; }
   vec3 forward() const { return frame_[2]; }

@@ -32,6 +32,15 @@ TEST(PixelFilter, OffsetsAreWhereTheWeightIs) {
     EXPECT_NEAR(filterWeightBelow(filteredOffset(part)), part, 1e-12);
   EXPECT_EQ(filteredOffset(0.5), 0);
   EXPECT_EQ(filteredOffset(0.2), -filteredOffset(0.8));
+  for (const double part : {0.01, 0.3, 0.5, 0.7, 0.99})
+    EXPECT_NEAR(double(quickFilteredOffset(float(part))), filteredOffset(part), 1e-4);
+}
+
+TEST(PixelFilter, DensityIsTheSlopeOfTheWeight) {
+  constexpr double kStep = 1e-5;
+  for (const double offset : {-1.4, -0.5, 0.0, 0.3, 1.2})
+    EXPECT_NEAR(filterDensity(offset),
+                (filterWeightBelow(offset + kStep) - filterWeightBelow(offset - kStep)) / (2 * kStep), 1e-8);
 }
 
 TEST(SamplePlaces, OneIsInTheMiddle) {
