@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <memory>
 
 #include "command.h"
@@ -93,7 +94,9 @@ ReferenceResult refineReference(const CompareJob& job, Estimate& estimate, const
   if (!refine(estimate, stop, job.progress)) throw Interrupted();
   const ReferenceJob written{
       options, options.reference, settings, stop, job.scene, sensor.empty() ? "nit" : "lux", sensor};
-  return {estimate.image(), estimate.passes(), estimate.noise(), watch.milliseconds() / 1000,
+  // One pass tells nothing of its own spread.
+  const double noise = estimate.passes() > 1 ? estimate.noise() : std::numeric_limits<double>::infinity();
+  return {estimate.image(), estimate.passes(), noise, watch.milliseconds() / 1000,
           referenceAttributes(estimate, written)};
 }
 
