@@ -3,6 +3,7 @@
 
 #include "reference/draws.h"
 #include "support/reference_scenes.h"
+#include "trace/surface_color.h"
 
 namespace nephroid {
 namespace {
