@@ -28,7 +28,7 @@ mkdir -p "$out"
 for scene in scenes/edges/*.toml; do
   name=$(basename "$scene" .toml)
   echo "$name" >&2
-  "$program" compare "$scene" -o "$work/$name" --techniques adaptive-beams --size 360x270 --seconds "$seconds" --quiet >/dev/null
+  "$program" compare "$scene" -o "$work/$name" --techniques adaptive-beams --size 360x270 --seconds "$seconds" --photons 1000000 --quiet >/dev/null
   cp "$work/$name/adaptive-beams.png" "$out/$name.png"
   cp "$work/$name/reference.png" "$out/$name.reference.png"
   {

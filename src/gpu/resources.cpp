@@ -57,7 +57,10 @@ Buffer createBuffer(Device& device, const std::string& name, VkDeviceSize bytes,
 
 void ensureBuffer(Device& device, Buffer& buffer, const std::string& name, VkDeviceSize bytes,
                   MemoryKind kind) {
-  if (!buffer || buffer.size() < bytes) buffer = createBuffer(device, name, bytes + bytes / 2, kind);
+  if (buffer && buffer.size() >= bytes) return;
+  constexpr VkDeviceSize kMostSpare = 32 << 20;
+  buffer = {};
+  buffer = createBuffer(device, name, bytes + std::min(bytes / 2, kMostSpare), kind);
 }
 
 Image::~Image() {

@@ -64,8 +64,8 @@ class Buffer {
 Buffer createBuffer(Device& device, const std::string& name, VkDeviceSize bytes,
                     MemoryKind kind = MemoryKind::device);
 
-// Replaces a buffer that is smaller than `bytes` by one of 1.5 times that size, so that a buffer that grows a
-// little with each frame is not allocated in each. The contents are not kept.
+// Replaces a buffer that is smaller than `bytes` by one that is larger by half, and by 32 MiB at most, so
+// that a buffer that grows a little with each frame is not allocated in each. The contents are not kept.
 void ensureBuffer(Device& device, Buffer& buffer, const std::string& name, VkDeviceSize bytes,
                   MemoryKind kind = MemoryKind::device);
 

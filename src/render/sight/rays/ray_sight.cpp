@@ -70,8 +70,9 @@ void RaySight::ensureImages(uvec2 pictureSize) {
     }
   }
   if (positions_ && positions_.height() >= rows()) return;
-  // Half as many more, so that a list that grows a little is not made anew in each frame.
-  const uint32_t height = std::max(rows() + rows() / 2, 1u);
+  // A few more, so that a list that grows a little is not made anew in each frame. The old ones go first.
+  const uint32_t height = std::max(rows() + rows() / 8, 1u);
+  for (gpu::Image* image : {&positions_, &normals_, &factors_, &directLux_, &causticsLux_}) *image = {};
   const auto points = [&](const char* name) {
     return gpu::createImage(device_, name, {.format = kFormat, .width = kPointsInRow, .height = height});
   };
