@@ -11,24 +11,15 @@ names=("${@:2}")
 if [ ${#names[@]} -eq 0 ]; then
   for scene in scenes/*.toml; do names+=("$(basename "$scene" .toml)"); done
 fi
-for program in build/release/bin/nephroid build/bin/nephroid; do [ -x "$program" ] && break; done
-if [ ! -x "$program" ]; then
-  echo "default_pictures.sh: no program at $program; build it first (scripts/build.sh)" >&2
-  exit 1
-fi
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-# The first number behind "KEY" in a report.
-number() { grep -A3 "\"$2\"" "$1" | grep -o '[0-9.]*[0-9]\(e-[0-9]*\)\?,\?$' | head -1 | tr -d ,; }
+. scripts/gallery_tools.sh
 
 {
   echo "# Pictures by the default technique, beside the reference"
   echo
-  echo "\`nephroid render SCENE\` at 640 x 480, 16 samples, all paths, and the reference after $seconds s on this machine. LDR-FLIP is the"
+  echo "What \`nephroid render SCENE\` draws at 640 x 480, 16 samples, all paths, and the reference after $seconds s on this machine, in passes"
+  echo "of a million photons, so that its noise is known (\`nephroid compare SCENE --techniques adaptive-beams\`). LDR-FLIP is the"
   echo "mean difference to someone who flips between the two, 0 to 1; what the reference's noise adds to it is in it. Made by"
-  echo "\`scripts/default_pictures.sh $*\`."
+  echo "\`scripts/default_pictures.sh $seconds ${names[*]}\`."
   echo
   echo "| scene | LDR-FLIP | noise of the reference's caustics |"
   echo "|---|---|---|"

@@ -7,14 +7,7 @@ cd "$(dirname "$0")/.."
 
 seconds=${1:-60}
 older=${2:-}
-for program in build/release/bin/nephroid build/bin/nephroid; do [ -x "$program" ] && break; done
-if [ ! -x "$program" ]; then
-  echo "edges_gallery.sh: no program at $program; build it first (scripts/build.sh)" >&2
-  exit 1
-fi
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. scripts/gallery_tools.sh
 out=docs/gallery/edges
 mkdir -p "$out"
 

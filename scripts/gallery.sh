@@ -11,18 +11,8 @@ scenes=(
   glass-ball glass-torus torus-knot glass-teapot knot-spotlight teapot-three-lights bunny-line-light coloured-horse coloured-bunny
   ball-over-teapot coloured-ball-over-statue ball-over-statue-in-room teapot-over-statue bunny-line-light-over-statue
 )
-for program in build/release/bin/nephroid build/bin/nephroid; do [ -x "$program" ] && break; done
-if [ ! -x "$program" ]; then
-  echo "gallery.sh: no program at $program; build it first (scripts/build.sh)" >&2
-  exit 1
-fi
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. scripts/gallery_tools.sh
 mkdir -p docs/gallery
-
-# The first number behind "KEY" in a report's part of the view.
-number() { grep -A3 "\"$2\"" "$1" | grep -o '[0-9.]*[0-9]\(e-[0-9]*\)\?,\?$' | head -1 | tr -d ,; }
 
 {
   echo "# The scenes of papers 1 and 2"

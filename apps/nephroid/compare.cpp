@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <iostream>
-#include <limits>
 #include <memory>
 
 #include "command.h"
@@ -94,9 +93,7 @@ ReferenceResult refineReference(const CompareJob& job, Estimate& estimate, const
   if (!refine(estimate, stop, job.progress)) throw Interrupted();
   const ReferenceJob written{
       options, options.reference, settings, stop, job.scene, sensor.empty() ? "nit" : "lux", sensor};
-  // One pass tells nothing of its own spread.
-  const double noise = estimate.passes() > 1 ? estimate.noise() : std::numeric_limits<double>::infinity();
-  return {estimate.image(), estimate.passes(), noise, watch.milliseconds() / 1000,
+  return {estimate.image(), estimate.passes(), estimate.noise(), watch.milliseconds() / 1000,
           referenceAttributes(estimate, written)};
 }
 

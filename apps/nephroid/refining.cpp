@@ -60,10 +60,10 @@ void resume(Estimate& estimate, const ReferenceJob& job) {
     throw InputError("--resume: '" + file.string() +
                      "' was not written by --technique reference; name another file");
   if (*key != stateKey(job))
-    throw InputError(
-        "--resume: '" + file.string() +
-        "' was made of another scene, or with another size, time, seed, --photons, --paths or --spectrum; "
-        "use the same, or name another file");
+    throw InputError("--resume: '" + file.string() +
+                     "' was made of another scene, by another version, or with another size, time, seed, "
+                     "--photons, --paths or --spectrum; "
+                     "use the same, or name another file");
   estimate.restore(readExr(file), static_cast<uint32_t>(*passes));
 }
 

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "report/false_color.h"
 #include "shown_views.h"
@@ -126,6 +127,8 @@ void drawError(const ViewerState& state) {
 void drawReference(const ViewerState& state) {
   if (!state.reference)
     ImGui::TextDisabled("Reference: begun when the picture is at rest");
+  else if (!std::isfinite(state.reference->noise))
+    ImGui::Text("Reference: 1 pass");
   else
     ImGui::Text("Reference: %u passes, caustics within %.1f %%", state.reference->passes,
                 100 * state.reference->noise);

@@ -239,7 +239,7 @@ void Viewer::showFrame() {
   showTitle();
   const bool isNew = drawPicture();
   if (!isNew && isGathering()) gatherPicture();
-  if (!isGathering() && !isStageBusy()) writeWantedPictures();
+  if (!isGathering() && !isStageBusy() && isPictureWhole()) writeWantedPictures();
   refineReference();
   chooseShownImage();
   updateLines();

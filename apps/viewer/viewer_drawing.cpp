@@ -7,8 +7,9 @@
 namespace nephroid {
 
 Viewer::Drawing::~Drawing() {
+  if (!work.valid()) return;  // its end was taken
   prepared->progress.cancel();
-  if (work.valid()) work.wait();
+  work.wait();
 }
 
 Viewer::Drawn Viewer::wantedOf(const Scene& scene, const PictureSettings& drawnWith, uint32_t stage) const {
@@ -40,8 +41,11 @@ void Viewer::beginFrame() {
   const Drawn wanted = wantedOf(state_.scene, stage.settings(), stageCount_);
   if ((wanted == drawn_ && options_.frames == 0) || wanted == canceled_) return;
   canceled_.reset();
-  if (drawn_.stage == stageCount_) writeWantedPictures();
-  if (wanted.size != stage.size()) stage.resize(wanted.size);
+  if (drawn_.stage == stageCount_ && isPictureWhole()) writeWantedPictures();
+  if (wanted.size != stage.size()) {
+    stage.resize(wanted.size);
+    picture_ = {&stage.picture(), false};
+  }
   stage.prepared()->progress.renew();
   drawing_ = std::make_unique<Drawing>(wanted, stage.prepared(), false);
   drawing_->work = std::async(std::launch::async, [&stage, scene = state_.scene, &drawing = *drawing_] {
@@ -79,7 +83,7 @@ bool Viewer::takeDrawing() {
     } else {
       tell(state_, "Canceled: the picture stays as it was");
       canceled_ = done->of;
-      drawn_.samples = 0;  // the stage is no longer that of the picture
+      drawn_.samples = 0;
     }
     return false;
   } catch (const gpu::DeviceLost&) {

@@ -70,8 +70,8 @@ class Viewer {
     double time = 0;
     uvec2 size{0};
     Paths paths = Paths::transmission;
-    uint32_t samples = 1;
-    uint32_t stage = 0;  // number of the stage, counted from the start
+    uint32_t samples = 1;  // 0: a frame was canceled, and the stage no longer has what the picture shows
+    uint32_t stage = 0;    // number of the stage, counted from the start
     bool operator==(const Drawn&) const = default;
   };
 
@@ -156,6 +156,7 @@ class Viewer {
   // viewer_shaders.cpp
   void useShaders();
 
+  bool isPictureWhole() const { return drawn_.samples > 0; }
   // Whether the two show the same, apart from how they were drawn: then they have the same reference.
   static bool seeTheSame(Drawn a, const Drawn& b);
 

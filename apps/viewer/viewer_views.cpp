@@ -51,6 +51,7 @@ void Viewer::show(const std::string& view) {
 
 bool Viewer::seeTheSame(Drawn a, const Drawn& b) {
   a.stage = b.stage;
+  a.samples = b.samples;
   return a == b;
 }
 
@@ -64,6 +65,8 @@ void Viewer::refineReference() {
     state_.reference.reset();
   }
   if (!graphics_->stage || !state_.isOpen || drawn_.stage == 0 || isStageBusy()) return;
+  // Not while what is to be drawn is another scene than what is shown.
+  if (!isPictureWhole() || stateOf(state_.scene) != drawn_.state || state_.scene.time != drawn_.time) return;
   const double atRest = std::chrono::duration<double>(Clock::now() - lastChange_).count();
   if (isWanted && !isThat && atRest >= kSecondsAtRest) {
     referenceWorker_.start(state_.scene, referenceSettingsFor(drawn_.paths, drawn_.size));

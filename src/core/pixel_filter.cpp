@@ -54,6 +54,9 @@ double filteredOffset(double part) {
 
 float quickFilteredOffset(float part) {
   static const std::array<float, kTableParts + 1> kTable = offsetTable();
+  // It is steep in its tails.
+  constexpr float kTail = 0.004f;
+  if (part < kTail || part > 1 - kTail) return float(filteredOffset(double(std::clamp(part, 0.0f, 1.0f))));
   const float place = std::clamp(part, 0.0f, 1.0f) * float(kTableParts);
   const std::size_t first = std::min(std::size_t(place), kTableParts - 1);
   return std::lerp(kTable[first], kTable[first + 1], place - float(first));

@@ -69,7 +69,7 @@ class Device {
   MemoryPool& memory() { return *memory_; }
   uint64_t memoryBytes() const { return memory_->usedBytes(); }  // in buffers and images now
 
-  const std::vector<std::string>& validationMessages() const { return instance_.validationMessages(); }
+  std::vector<std::string> validationMessages() const { return instance_.validationMessages(); }
   void clearValidationMessages() { instance_.clearValidationMessages(); }
 
   // The object's name in debuggers, captures and validation messages.

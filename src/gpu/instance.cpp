@@ -31,14 +31,25 @@ bool hasExtension(const char* layer, const char* name) {
                              [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                              VkDebugUtilsMessageTypeFlagsEXT,
-                                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-  static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
+}  // namespace
+
+VkBool32 Instance::collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                  const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
+  Messages& all = *static_cast<Messages*>(messages);
+  const std::lock_guard lock(all.adding);
+  all.texts.emplace_back(data->pMessage);
   return VK_FALSE;
 }
 
-}  // namespace
+std::vector<std::string> Instance::validationMessages() const {
+  const std::lock_guard lock(messages_.adding);
+  return messages_.texts;
+}
+
+void Instance::clearValidationMessages() {
+  const std::lock_guard lock(messages_.adding);
+  messages_.texts.clear();
+}
 
 Instance::Instance(bool validation, const std::vector<std::string>& surfaceExtensions) {
   if (volkInitialize() != VK_SUCCESS)

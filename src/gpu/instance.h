@@ -1,6 +1,7 @@
 // The Vulkan instance, and the messages of the validation layer.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -22,14 +23,24 @@ class Instance {
   std::vector<VkPhysicalDevice> physicalDevices() const;
 
   // Warnings and errors of the validation layer since the instance was made or they were last cleared.
-  const std::vector<std::string>& validationMessages() const { return messages_; }
-  void clearValidationMessages() { messages_.clear(); }
+  std::vector<std::string> validationMessages() const;
+  void clearValidationMessages();
 
  private:
   VkInstance handle_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   bool hasDebugNames_ = false;
-  std::vector<std::string> messages_;
+
+  // Several threads may cause them.
+  struct Messages {
+    mutable std::mutex adding;
+    std::vector<std::string> texts;
+  };
+  static VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                                       VkDebugUtilsMessageTypeFlagsEXT,
+                                                       const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                       void* messages);
+  Messages messages_;
 };
 
 }  // namespace nephroid::gpu

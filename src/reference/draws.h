@@ -1,6 +1,7 @@
 // Random numbers for the looks of a pass into a pixel, or for other samples of which there are a few.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "reference/sampling.h"
@@ -32,7 +33,7 @@ inline uint32_t placeInOrder(uint32_t index, uint32_t count, uint32_t order) {
     index &= mask;
     index ^= index >> 5;
   } while (index >= count);
-  return (index + order) % count;
+  return (index + order % count) % count;
 }
 
 // The numbers of one of `count` samples that are summed up. The first numbers of all the samples are in as

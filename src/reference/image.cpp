@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "core/color.h"
 #include "core/pixel_filter.h"
@@ -46,14 +47,18 @@ vec2 placeInPixel(uvec2 pixel, float u) {
 void addSplat(const Splat& splat, uvec2 size, std::vector<vec3>& layer, std::vector<vec3>& total) {
   const ivec2 low = max(ivec2(glm::ceil(splat.place - 0.5f - float(kFilterRadius))), ivec2(0));
   const ivec2 high = min(ivec2(glm::floor(splat.place - 0.5f + float(kFilterRadius))), ivec2(size) - 1);
-  for (int y = low.y; y <= high.y; ++y)
+  const auto weight = [](float place, int pixel) {
+    return float(filterDensity(double(place) - double(pixel) - 0.5));
+  };
+  for (int y = low.y; y <= high.y; ++y) {
+    const vec3 inRow = weight(splat.place.y, y) * splat.luminance;
     for (int x = low.x; x <= high.x; ++x) {
-      const vec2 offset = splat.place - vec2(float(x), float(y)) - 0.5f;
-      const float weight = float(filterDensity(double(offset.x)) * filterDensity(double(offset.y)));
+      const vec3 luminance = weight(splat.place.x, x) * inRow;
       const std::size_t pixel = std::size_t(y) * size.x + std::size_t(x);
-      layer[pixel] += weight * splat.luminance;
-      total[pixel] += weight * splat.luminance;
+      layer[pixel] += luminance;
+      total[pixel] += luminance;
     }
+  }
 }
 
 template <class T>
@@ -85,13 +90,14 @@ ReferenceImage::ReferenceImage(const Scene& sceneToSee, const RayScene& rays,
       direct_(total_),
       caustics_(total_),
       shafts_(total_) {
-  if (!tracer_.isDark() && std::min(settings_.pilots, settings_.photons) >= kPilotsInPart)
-    tracer_.guide(findGuide());
+  // They may take a quarter as long as a pass.
+  settings_.pilots = std::min(settings_.pilots, settings_.photons / 4);
+  if (!tracer_.isDark() && settings_.pilots >= kPilotsInPart) tracer_.guide(findGuide());
 }
 
 // By a few photons, sent evenly, and by looks spread over the picture, in one thread.
 PhotonGuide ReferenceImage::findGuide() const {
-  const uint32_t parts = std::bit_floor(std::min(settings_.pilots, settings_.photons) / kPilotsInPart);
+  const uint32_t parts = std::bit_floor(settings_.pilots / kPilotsInPart);
   const PhotonPass pass =
       photonPass(scene_, settings_.spectrum, settings_.seed, ~uint64_t{0}, parts * kPilotsInPart);
   std::vector<Splat> splats;
@@ -171,6 +177,7 @@ void ReferenceImage::pass() {
 }
 
 double ReferenceImage::noise() const {
+  if (passesDone_ < 2) return std::numeric_limits<double>::infinity();
   const double ofCaustics = caustics_.noise();
   return std::isfinite(ofCaustics) ? ofCaustics : total_.noise();
 }

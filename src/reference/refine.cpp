@@ -21,7 +21,7 @@ double fractionDone(const StopRule& rule, uint32_t passes, double seconds, doubl
   double fraction = 0;
   if (rule.passes > 0) fraction = std::max(fraction, double(passes) / rule.passes);
   if (rule.seconds > 0) fraction = std::max(fraction, seconds / rule.seconds);
-  if (rule.error > 0 && passes > 1) fraction = std::max(fraction, std::pow(rule.error / noise, 2));
+  if (rule.error > 0) fraction = std::max(fraction, std::pow(rule.error / noise, 2));
   return std::min(fraction, 1.0);
 }
 
@@ -33,7 +33,7 @@ bool isDone(const StopRule& rule, uint32_t passes, double seconds, double noise)
 
 std::string describe(uint32_t passes, double noise) {
   char text[64];
-  if (passes > 1 && std::isfinite(noise))
+  if (std::isfinite(noise))
     std::snprintf(text, sizeof text, "pass %u, %.2f %% error", passes, 100 * noise);
   else
     std::snprintf(text, sizeof text, "pass %u", passes);

@@ -1,6 +1,7 @@
 #include "reference/sensor.h"
 
 #include <cmath>
+#include <limits>
 
 #include "reference/direct.h"
 #include "scene/checks.h"
@@ -145,6 +146,7 @@ vec3 ReferenceSensor::directAt(uvec2 texel, Random& random) const {
 }
 
 double ReferenceSensor::noise() const {
+  if (passesDone_ < 2) return std::numeric_limits<double>::infinity();
   const double ofCaustics = caustics_.noise();
   return std::isfinite(ofCaustics) ? ofCaustics : total_.noise();
 }

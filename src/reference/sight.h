@@ -43,8 +43,9 @@ class Sight {
   // All must outlive this.
   Sight(const Scene& scene, const Boundaries& boundaries, const Lights& lights);
 
-  // A sample of the luminance along a ray that begins inside `media`. At the first glass the view goes on by
-  // both ways, reflected and transmitted, and further on by one of them, with the probability of its part.
+  // A sample of the luminance along a ray that begins inside `media`. At the first few surfaces of glass the
+  // view goes on by both ways, reflected and transmitted, where each is worth it; further on by one of them,
+  // with the probability of its part.
   Seen look(const Ray& ray, const MediumStack& media, const PassLight& light, Draws& draws) const;
 
  private:

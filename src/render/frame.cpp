@@ -96,10 +96,11 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       settings_(settings),
       hasTurbidWater_(hasTurbidWater(transport.scene())),
       gpuScene_(device, transport.scene()),
-      programs_(createFramePrograms(
-          device, {hasEmission(transport.scene()), transport.scene().medium.has_value(), hasTurbidWater_})),
-      images_(createFrameImages(device, settings.size.x, settings.size.y)),
       isByRays_(settings.sight.method == SightMethod::rays && !technique.traits().coversSquares),
+      programs_(
+          createFramePrograms(device, {hasEmission(transport.scene()), transport.scene().medium.has_value(),
+                                       hasTurbidWater_, isByRays_})),
+      images_(createFrameImages(device, settings.size.x, settings.size.y)),
       sight_(device, settings.sight),
       raySight_(device, hasTurbidWater_),
       waysInWater_(device, isByRays_),
@@ -135,11 +136,11 @@ std::vector<PassTime> Renderer::render(const Scene& scene) {
 std::vector<PassTime> Renderer::draw(const Scene& scene) {
   std::vector<PassTime> passes;
   onHost(passes, "placement", [&] { place(scene); });
+  sums_.begin();
   const Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.traits().followsCamera);
   onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_, shafts_.lightsInAir()); });
   if (remade.beams) onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
   arePlanesInAirChosen_ = false;
-  sums_.begin();
   if (settings_.samples > 1) {
     places_ = samplePlaces(settings_.samples);
     addSample(remade, passes);
@@ -196,7 +197,7 @@ void Renderer::drawSample(vec2 at, Remade remade, std::vector<PassTime>& passes)
         raySight_.update(transport_, view_, settings_.size, extents_);
       else
         sight_.update(transport_, view_, settings_.size, extents_);
-      waysInWater_.update(transport_, view_, settings_.size, extents_, casterRegion());
+      if (hasTurbidWater_) waysInWater_.update(transport_, view_, settings_.size, extents_, casterRegion());
     });
   }
   ensureImages();

@@ -99,9 +99,9 @@ class Renderer {
   RenderSettings settings_;
   bool hasTurbidWater_ = false;  // water that absorbs or scatters
   GpuScene gpuScene_;
+  bool isByRays_ = false;  // the view through casters; otherwise by slices
   FramePrograms programs_;
   FrameImages images_;
-  bool isByRays_ = false;  // the view through casters; otherwise by slices
   SightPass sight_;
   RaySight raySight_;
   WaysInWater waysInWater_;

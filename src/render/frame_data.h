@@ -56,7 +56,7 @@ SHARED_CONSTANT uint kSeenReflected = 3u;  // the receiver that glass reflects
 SHARED_CONSTANT uint kSeenCount = 4u;
 
 // Of the images that hold the points of sight by rays.
-SHARED_CONSTANT uint kPointsInRow = 1024u;
+SHARED_CONSTANT uint kPointsInRow = 4096u;
 
 struct CompositeConstants {
   BUFFER_ADDRESS(SceneMaterials) materials;

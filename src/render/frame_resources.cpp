@@ -52,6 +52,7 @@ FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& lu
        {CasterTraits{false, false, false, false}, CasterTraits{true, false, false, false},
         CasterTraits{true, true, false, false}, CasterTraits{true, true, true, false},
         CasterTraits{true, false, false, true}}) {
+    if (traits.areSeen && traits.byRays != luminance.isSeenByRays) continue;
     const std::vector<gpu::SpecializationConstant> choices{
         {"kHasEmission", luminance.hasEmission}, {"kSeesCasters", traits.areSeen},
         {"kReflects", traits.reflect},           {"kDisperses", traits.disperse},

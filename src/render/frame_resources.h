@@ -63,6 +63,7 @@ struct LuminanceTraits {
   bool hasEmission = false;
   bool hasAir = false;
   bool hasTurbidWater = false;  // water that absorbs or scatters
+  bool isSeenByRays = false;    // what casters show
 };
 
 FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& luminance);

@@ -34,8 +34,7 @@ bool always(const Scene&) {
 std::span<const Omission> omissionsOfFrame() {
   static constexpr Omission kOmissions[] = {
       {"In the view through casters by rays: ways that carry less than a thousandth of what their pixel "
-       "shows, "
-       "in whose place the others count for more, and ways that meet more than 48 boundaries",
+       "shows, in whose place the others count for more, and ways that meet more than 48 boundaries",
        hasCaster},
       {"In the view through casters by slices (--sight slices, and always with light-volumes): other casters "
        "in what the outside of glass reflects, and what is reflected inside where it could have left",

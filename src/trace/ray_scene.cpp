@@ -353,6 +353,10 @@ float RayScene::rounding(uint32_t object) const {
   return impl_->roundings[object];
 }
 
+const Box& RayScene::box(uint32_t mesh) const {
+  return impl_->boxes[mesh];
+}
+
 float RayScene::largestRounding() const {
   return impl_->roundings.empty() ? 0 : *std::max_element(impl_->roundings.begin(), impl_->roundings.end());
 }

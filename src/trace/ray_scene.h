@@ -86,6 +86,8 @@ class RayScene {
   float rounding(uint32_t object) const;
   // The largest of all objects.
   float largestRounding() const;
+  // Of the mesh's triangles, in its own space.
+  const Box& box(uint32_t mesh) const;
   // The distance (m) along a ray that leaves an object's surface up to which it may meet this surface again.
   float clearance(uint32_t object, vec3 geometricNormal, vec3 direction) const;
 

@@ -158,6 +158,7 @@ TEST(RayMeshBounds, ChaoticLightIsKept) {
   const double told =
       stats.landedFlux + stats.missedFlux + stats.shadedFlux + stats.lostFlux + stats.droppedFlux;
   EXPECT_NEAR(told / stats.incidentFlux, 1, 0.5 * double(settings.error));
+  EXPECT_LT((stats.lostFlux + stats.droppedFlux) / stats.incidentFlux, double(settings.error));
 }
 
 // A wave of 100,000 triangles under an area lamp.

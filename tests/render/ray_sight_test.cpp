@@ -1,6 +1,7 @@
 // The view through casters by rays: what is interpolated against every pixel traced, and trees of rays
 // against the reference, which follows one way at a time, by chance.
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include "formats/load.h"
 #include "geometry/bounds.h"
@@ -88,6 +89,38 @@ Scene pane() {
   sheet.color = {0.6f, 0.9f, 0.7f};
   add(scene, makeBox({1, 1, 0.05f}), sheet, {0, 0.6f, 0.6f});
   add(scene, makeSphere(0.3f, {.vertices = 640}), mirror(0.8f), {0, 0.4f, -0.3f});
+  return scene;
+}
+
+// Behind a pane a wall whose texture begins anew in the middle. Where it does so it is dark on both sides.
+// Cells that mix coordinates across the seam are off in 0.4 % of the pixels.
+Scene seam() {
+  Scene scene = onFloor();
+  Texture& texture = scene.textures.emplace_back();
+  texture.width = 64;
+  texture.height = 1;
+  for (uint32_t x = 0; x < 64; ++x) texture.texels.emplace_back(vec3(x < 24 || x >= 40 ? 0.1f : 0.9f), 1.0f);
+  Mesh wall;
+  wall.name = "wall";
+  for (const float left : {-1.0f, 0.0f}) {
+    const uint32_t first = uint32_t(wall.positions.size());
+    for (const vec2 at : {vec2(0), vec2(1, 0), vec2(1), vec2(0, 1)}) {
+      wall.positions.emplace_back(left + at.x, 1.2f * at.y, -0.5f);
+      wall.normals.emplace_back(0, 0, 1);
+      wall.texcoords.push_back(at);
+    }
+    wall.triangles.insert(wall.triangles.end(),
+                          {{first, first + 1, first + 2}, {first, first + 2, first + 3}});
+  }
+  finishMesh(wall, "wall");
+  Material painted = diffuse(1);
+  painted.colorTexture = 0;
+  // At a slant, so that it goes through cells.
+  add(scene, wall, painted).placement.rotation = glm::angleAxis(0.1f, vec3(0, 0, 1));
+  Material sheet = glass();
+  sheet.thinWalled = true;
+  add(scene, makePlane({1, 1}, {.segments = 1}), sheet, {0, 0.6f, 0.6f}).placement.rotation =
+      glm::angleAxis(kPi / 2, vec3(1, 0, 0));
   return scene;
 }
 
@@ -182,10 +215,11 @@ double offPart(const SeenByRays& seen, const SeenByRays& exact, float exposure) 
 struct Case {
   const char* name;
   Scene (*make)();
+  double mostOff = 0.005;  // as a part of the pixels that show casters
 };
-constexpr Case kCases[] = {{"ball", ball},        {"wine glass", wineGlass},  {"joined blocks", joined},
-                           {"gem", gem},          {"disco ball", discoBall},  {"pane", pane},
-                           {"in glass", inGlass}, {"under water", underWater}};
+constexpr Case kCases[] = {{"ball", ball},        {"wine glass", wineGlass}, {"joined blocks", joined},
+                           {"gem", gem},          {"disco ball", discoBall}, {"pane", pane},
+                           {"seam", seam, 0.001}, {"in glass", inGlass},     {"under water", underWater}};
 
 TEST(RaySight, ShowsWhatEveryPixelTracedShows) {
   for (const Case& one : kCases) {
@@ -193,7 +227,7 @@ TEST(RaySight, ShowsWhatEveryPixelTracedShows) {
     const SeenByRays seen = looked.seen(TreeSettings{}.leastWeight, true), exact = looked.seen(1e-5f, false);
     const double off = offPart(seen, exact, 1);
     RecordProperty(std::string("off_percent_") + one.name, std::to_string(100 * off));
-    EXPECT_LT(off, 0.005) << one.name;
+    EXPECT_LT(off, one.mostOff) << one.name;
     EXPECT_LE(seen.counts.traced, exact.counts.traced) << one.name;
     EXPECT_LT(seen.counts.leftOut, 0.004) << one.name;
   }
@@ -255,13 +289,25 @@ TEST(RaySight, IsWhatTheReferenceSees) {
   }
 }
 
-// The same for any number of threads is held by the program's tests; here, twice in one process.
-TEST(RaySight, IsTheSameTwice) {
-  const Looked looked(gem(), {160, 120});
-  const SeenByRays a = looked.seen(2e-3f, true), b = looked.seen(2e-3f, true);
-  EXPECT_EQ(a.positions, b.positions);
-  EXPECT_EQ(a.factors, b.factors);
-  EXPECT_EQ(a.rest, b.rest);
+TEST(RaySight, IsTheSameForAnyNumberOfThreads) {
+  for (Scene (*make)() : {gem, ball}) {
+    const Looked looked(make(), {160, 120});
+    const SeenByRays all = looked.seen(TreeSettings{}.leastWeight, true);
+    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    const SeenByRays again = looked.seen(TreeSettings{}.leastWeight, true);
+    EXPECT_EQ(all.positions, again.positions);
+    EXPECT_EQ(all.normals, again.normals);
+    EXPECT_EQ(all.factors, again.factors);
+    EXPECT_EQ(all.ranges, again.ranges);
+    EXPECT_EQ(all.rest, again.rest);
+  }
+}
+
+// A smooth ball behind which there is little leaves most pixels to their neighbors.
+TEST(RaySight, TracesAPartOfThePixels) {
+  const Looked looked(ball(), {640, 480});
+  const SeenByRays seen = looked.seen(TreeSettings{}.leastWeight, true);
+  EXPECT_LT(2 * seen.counts.traced, looked.seen(TreeSettings{}.leastWeight, false).counts.traced);
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ TEST(PixelFilter, OffsetsAreWhereTheWeightIs) {
     EXPECT_NEAR(filterWeightBelow(filteredOffset(part)), part, 1e-12);
   EXPECT_EQ(filteredOffset(0.5), 0);
   EXPECT_EQ(filteredOffset(0.2), -filteredOffset(0.8));
-  for (const double part : {0.01, 0.3, 0.5, 0.7, 0.99})
-    EXPECT_NEAR(double(quickFilteredOffset(float(part))), filteredOffset(part), 1e-4);
+  for (const float part : {0.0f, 1e-5f, 0.001f, 0.005f, 0.01f, 0.3f, 0.5f, 0.7f, 0.99f, 0.9999f})
+    EXPECT_NEAR(double(quickFilteredOffset(part)), filteredOffset(double(part)), 1e-4);
 }
 
 TEST(PixelFilter, DensityIsTheSlopeOfTheWeight) {

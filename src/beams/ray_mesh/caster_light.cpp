@@ -71,29 +71,31 @@ std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& ra
       all.push_back(light);
     }
   };
-  const auto addFrom = [&](uint32_t object, LampCell cell) {
-    MediumStack around;
-    if (cell.emitter.type != kEmitterDirectional) {
-      cell.emitter.position = besideSurfaces(scene, rays, cell.emitter.position);
-      around = mediaAround(rays, materials, cell.emitter.position);
-    }
-    add(object, cell, around);
+  // Moves an emitter off surfaces, and tells the media about it.
+  const auto settled = [&](Emitter& emitter) {
+    if (emitter.type == kEmitterDirectional) return MediumStack{};
+    emitter.position = besideSurfaces(scene, rays, emitter.position);
+    return mediaAround(rays, materials, emitter.position);
   };
   for (uint32_t index = 0; index < scene.lights.size(); ++index) {
     const Light& lamp = scene.lights[index];
     if (!hasSize(lamp)) {
-      for (const Emitter& emitter : emittersOf(lamp, index))
+      for (Emitter emitter : emittersOf(lamp, index)) {
+        const MediumStack around = settled(emitter);
         for (uint32_t object = 0; object < scene.objects.size(); ++object)
-          if (scene.isCaster(scene.objects[object])) addFrom(object, {emitter, {}});
+          if (scene.isCaster(scene.objects[object])) add(object, {emitter, {}}, around);
+      }
       continue;
     }
     for (uint32_t object = 0; object < scene.objects.size(); ++object) {
       if (!scene.isCaster(scene.objects[object])) continue;
       const Placement& placement = scene.objects[object].placement;
       const Sphere sphere = boundingSphere(scene.meshOf(scene.objects[object]));
-      for (const LampCell& cell :
-           lampCells(lamp, index, placement.point(sphere.center), placement.scale * sphere.radius, error))
-        addFrom(object, cell);
+      for (LampCell& cell :
+           lampCells(lamp, index, placement.point(sphere.center), placement.scale * sphere.radius, error)) {
+        const MediumStack around = settled(cell.emitter);
+        add(object, cell, around);
+      }
     }
   }
   return all;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/bounds.h"
 #include "geometry/curved_triangle.h"
 
 namespace nephroid {
@@ -11,6 +10,8 @@ namespace {
 
 // Of a triangle's longest side: how far beside the surface light begins.
 constexpr float kBeside = 0.01f;
+// Of a mesh's diagonal: how far curved surfaces reach out of the box of its triangles, at most.
+constexpr float kBulge = 0.05f;
 // A point on the surface is as near to it as so many times what floats round.
 constexpr float kRoundings = 16;
 
@@ -35,7 +36,7 @@ vec3 nearestWeights(const mat3& corners, vec3 point) {
   return best;
 }
 
-// In the mesh's own space. `rounding`: m.
+// All in the mesh's own space.
 bool liesOn(const mat3& positions, const mat3& normals, bool isCurved, vec3 point, float rounding,
             vec3& outside) {
   const vec3 weights = nearestWeights(positions, point);
@@ -61,9 +62,8 @@ vec3 besideSurfaces(const Scene& scene, const RayScene& rays, vec3 point) {
     const Mesh& mesh = scene.meshOf(object);
     const vec3 local = placement.inversePoint(point);
     const float rounding = rays.rounding(index) / placement.scale;
-    Box near = boundingBox(mesh);
-    // Curved surfaces reach out of the box of their triangles.
-    const float spare = kBeside * near.diagonal();
+    Box near = rays.box(object.mesh);
+    const float spare = kBulge * near.diagonal();
     near.low -= spare;
     near.high += spare;
     if (glm::any(glm::lessThan(local, near.low)) || glm::any(glm::greaterThan(local, near.high))) continue;

@@ -238,7 +238,6 @@ void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
 
 // Those that a lamp close by sees under a wide angle.
 void LightSheets::cutWide(std::vector<Sheet>& sheets) {
-  std::vector<Sheet> wide;
   const auto isWide = [&](const Sheet& sheet) {
     const auto direction = [&](int i) { return tree.nodes[sheet.node[i % 3]].direction; };
     for (int i = 0; i < 3; ++i)
@@ -246,11 +245,10 @@ void LightSheets::cutWide(std::vector<Sheet>& sheets) {
     return false;
   };
   for (int round = 0; round < kMostWideCuts; ++round) {
-    wide.clear();
+    if (std::ranges::none_of(sheets, isWide)) return;
     const auto narrow = std::stable_partition(sheets.begin(), sheets.end(),
                                               [&](const Sheet& sheet) { return !isWide(sheet); });
-    wide.assign(narrow, sheets.end());
-    if (wide.empty()) return;
+    const std::vector<Sheet> wide(narrow, sheets.end());
     const std::size_t kept = std::size_t(narrow - sheets.begin());
     sheets.resize(kept);
     cut(wide, sheets);
@@ -355,7 +353,7 @@ void LightSheets::follow(std::vector<Sheet>& sheets, std::vector<Sheet>& landed,
       const PathNode& node = tree.nodes[sheet.node[0]];
       if (node.state == PathState::atCaster && node.generation >= kMostOfSheet && sheet.cuts != kWhole) {
         tooLong.push_back(sheet);
-      } else if (hasRoom && isCutAhead(sheet)) {
+      } else if (hasRoom && node.state == PathState::atCaster && isCutAhead(sheet)) {
         early.push_back(sheet);
       } else if (node.state == PathState::atCaster) {
         expand(sheet, next);

@@ -104,8 +104,7 @@ bool LightSheets::isChaotic(const Sheet& sheet) const {
 // cut here, before it is known where its parts go.
 bool LightSheets::isCutAhead(const Sheet& sheet) const {
   const PathNode& node = tree.nodes[sheet.node[0]];
-  if (sheet.cuts >= kMostCuts || node.state != PathState::atCaster || node.generation + 1 < kFirstChaotic)
-    return false;
+  if (sheet.cuts >= kMostCuts || node.generation + 1 < kFirstChaotic) return false;
   const float least = std::max(kHeavyAhead * settings_.error, kBeamsAhead / float(settings_.mostBeams));
   return luminanceOf(carried(sheet)) > least * float(stats.incidentFlux) &&
          spreadAt({sheet.node[0], sheet.node[1], sheet.node[2]}) > kSpreadOfChaos;

@@ -12,8 +12,8 @@ constexpr float kWeakBranch = 0.02f;
 constexpr double kLeftOut = 0.07;  // of the error
 // Of the incident flux, times the error: less than this is not followed sheet by sheet.
 constexpr float kLeastCarried = 2e-4f;
-// Of light that is trapped there is no end: after so many boundaries it is twice as much for each so much of
-// the memory that paths take past a part of it.
+// Of light that is trapped there is no end: after so many boundaries kLeastCarried doubles with each
+// kPartOfDoubling of the memory that paths take beyond kFreePart.
 constexpr uint8_t kLongWay = 6;
 constexpr float kFreePart = 0.25f, kPartOfDoubling = 1.0f / 32, kMostDoublings = 24;
 

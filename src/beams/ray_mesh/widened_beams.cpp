@@ -69,7 +69,7 @@ vec3 movedCorner(vec3 corner, const BeamShift& shift, int c, vec2 at, vec3 norma
   const vec3 direction =
       normalize(shift.direction[c] + at.x * shift.directionShift[c][0] + at.y * shift.directionShift[c][1]);
   const float before = dot(shift.direction[c], normal), approach = dot(direction, normal);
-  if (approach / before < kLeastApproach)
+  if (!(approach / before >= kLeastApproach && before != 0))
     return corner + at.x * shift.corner[c][0] + at.y * shift.corner[c][1];
   return start + dot(corner - start, normal) / approach * direction;
 }

@@ -23,6 +23,7 @@ constexpr float kInversePi = 0.318309886f;
 constexpr float kMostShift = 0.2f, kMostFaintShift = 2;
 constexpr float kMostWeightError = 0.004f, kMostFaintError = 5e-4f;
 constexpr float kMostTurn = 0.01f;
+constexpr float kRoundedTexcoord = 1e-5f;
 
 // What a pixel's ray meets first, where that is a caster.
 struct First {
@@ -297,9 +298,17 @@ class PixelTrees {
       return distance(blend.ends[a][i].position, blend.ends[b][i].position);
     };
     const float pixel = std::max({apart(0, 1), apart(2, 3), apart(0, 2), apart(1, 3)}) / float(kCell);  // m
+    // Where a texture's coordinates begin anew, they jump.
+    const auto texelsApart = [&](std::size_t a, std::size_t b) {
+      return distance(blend.ends[a][i].texcoord, blend.ends[b][i].texcoord);
+    };
+    const float texels =
+        std::max({texelsApart(0, 1), texelsApart(2, 3), texelsApart(0, 2), texelsApart(1, 3)}) / float(kCell);
     const float most =
         kMostShift * glm::clamp(0.1f / std::max(weight, 1e-6f), 1.0f, kMostFaintShift / kMostShift);
     if (distance(blend.end(i, &SightEnd::position), end.position) > most * pixel) return false;
+    if (distance(blend.end(i, &SightEnd::texcoord), end.texcoord) > most * texels + kRoundedTexcoord)
+      return false;
     return distance(normalize(blend.end(i, &SightEnd::normal)), end.normal) < kMostTurn;
   }
 

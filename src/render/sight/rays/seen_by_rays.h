@@ -25,7 +25,7 @@ struct RaySightInput {
 struct RaySightCounts {
   uint64_t rays = 0;
   uint64_t pixels = 0;  // that show casters
-  uint64_t traced = 0;  // of them
+  uint64_t traced = 0;  // trees; also of corners and middles of cells that show no caster
   uint64_t points = 0;
   double leftOut = 0;  // mean over the traced pixels: the weight of ways that were too weak
   double lost = 0;     // the same, of ways that found no end
