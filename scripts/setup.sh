@@ -18,7 +18,7 @@ packages=(
 )
 if [ "${1:-}" = tests ]; then
   packages+=(libgtest-dev libbenchmark-dev vulkan-validationlayers clang clang-format clang-tidy libclang-rt-dev ccache
-             xvfb xdotool twm x11-utils)
+             xvfb xdotool twm x11-utils ffmpeg)
   # Opens a report in a test, which is skipped without it: Ubuntu's package is a snap, which containers do not run.
   if grep -qsx 'ID=debian' /etc/os-release; then packages+=(chromium); fi
 elif [ -n "${1:-}" ]; then

@@ -7,7 +7,7 @@
 namespace nephroid {
 
 Viewer::Drawing::~Drawing() {
-  if (!work.valid()) return;  // its end was taken
+  if (!work.valid()) return;  // done, and what it made was taken
   prepared->progress.cancel();
   work.wait();
 }

@@ -1,6 +1,7 @@
 #include "reference/estimate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -84,6 +85,12 @@ double RunningMean::noise() const {
     if (values >= kShare * light) break;
   }
   return values > 0 ? errors / values : std::numeric_limits<double>::infinity();
+}
+
+double noiseOf(uint32_t passes, const RunningMean& caustics, const RunningMean& total) {
+  if (passes < 2) return std::numeric_limits<double>::infinity();
+  const double ofCaustics = caustics.noise();
+  return std::isfinite(ofCaustics) ? ofCaustics : total.noise();
 }
 
 }  // namespace nephroid

@@ -38,4 +38,8 @@ class RunningMean {
   std::vector<vec3> variance_;
 };
 
+// That of the caustics, or of all light where there are no caustics. Infinite before the second pass: one
+// pass tells nothing of its own spread.
+double noiseOf(uint32_t passes, const RunningMean& caustics, const RunningMean& total);
+
 }  // namespace nephroid

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "core/color.h"
 #include "core/pixel_filter.h"
@@ -177,9 +176,7 @@ void ReferenceImage::pass() {
 }
 
 double ReferenceImage::noise() const {
-  if (passesDone_ < 2) return std::numeric_limits<double>::infinity();
-  const double ofCaustics = caustics_.noise();
-  return std::isfinite(ofCaustics) ? ofCaustics : total_.noise();
+  return noiseOf(passesDone_, caustics_, total_);
 }
 
 Image ReferenceImage::image() const {

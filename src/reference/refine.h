@@ -35,8 +35,7 @@ class Estimate {
 
   virtual void pass() = 0;
   uint32_t passes() const { return passesDone_; }
-  // The relative standard error (RunningMean::noise) of the caustics, or of all light where there are no
-  // caustics.
+  // The relative standard error of what was found so far (noiseOf).
   virtual double noise() const = 0;
   virtual Image image() const = 0;
   // Continues from `image`, which image() returned after `passes` passes for the same scene and settings.

@@ -1,8 +1,5 @@
 #include "reference/sensor.h"
 
-#include <cmath>
-#include <limits>
-
 #include "reference/direct.h"
 #include "scene/checks.h"
 
@@ -146,9 +143,7 @@ vec3 ReferenceSensor::directAt(uvec2 texel, Random& random) const {
 }
 
 double ReferenceSensor::noise() const {
-  if (passesDone_ < 2) return std::numeric_limits<double>::infinity();
-  const double ofCaustics = caustics_.noise();
-  return std::isfinite(ofCaustics) ? ofCaustics : total_.noise();
+  return noiseOf(passesDone_, caustics_, total_);
 }
 
 Image ReferenceSensor::image() const {
