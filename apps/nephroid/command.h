@@ -13,6 +13,7 @@
 #include "core/stats.h"
 #include "core/stopwatch.h"
 #include "render/settings.h"
+#include "render/tone_mapping.h"
 #include "scene/scene.h"
 
 namespace nephroid {
@@ -48,6 +49,8 @@ void addScene(CLI::App& command, std::filesystem::path& scene);
 void addOutput(CLI::App& command, std::filesystem::path& output, const std::string& help);
 void addTime(CLI::App& command, double& time);
 void addSize(CLI::App& command, uvec2& size);  // pixels
+// --exposure and --tone.
+void addTone(CLI::App& command, ToneChoice& choice);
 void addDevice(CLI::App& command, std::string& device);
 void addQuiet(CLI::App& command, bool& isQuiet);
 void addRepeat(CLI::App& command, uint32_t& repeat);
@@ -94,6 +97,9 @@ const std::string& commandLine();
 // The attributes of an EXR that tell how it was made. They contain no date and no folder, so that the same
 // command writes the same bytes.
 std::vector<ImageAttribute> imageAttributes(const PictureSettings& settings, const std::string& unit);
+
+// The attributes of a camera's EXR that tell how a picture of it is shown.
+void addToneAttributes(const ToneMapping& toneMapping, std::vector<ImageAttribute>& attributes);
 
 // Tells on standard error what was mended in the scene's meshes, or cannot be right; each line once in a run.
 void warnOf(const Scene& scene, Stats& stats);

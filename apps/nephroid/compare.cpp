@@ -9,6 +9,7 @@
 #include "reference/image.h"
 #include "reference/sensor.h"
 #include "refining.h"
+#include "render/metering.h"
 #include "render/omissions.h"
 #include "render/technique_meter.h"
 #include "report/report_folder.h"
@@ -21,6 +22,7 @@ namespace {
 struct CompareOptions : CommonOptions {
   std::vector<std::string> techniques;
   PictureSettings picture;
+  ToneChoice tone;
   uvec2 size{640, 480};  // pixels
   ReferenceOptions reference;
 };
@@ -53,7 +55,8 @@ TechniqueResult drawTechnique(const CompareJob& job, const std::string& techniqu
   // Techniques are timed by frames of one sample, as a window draws them while something moves.
   PictureSettings timed = settings;
   timed.samples.count = 1;
-  const FrameRequest request{job.options.scene, job.options.time,   timed,
+  const ToneChoice unmetered{.isExposureChosen = true, .exposure = 1.0f, .tone = {}};
+  const FrameRequest request{job.options.scene, job.options.time,   timed,    unmetered,
                              job.options.size,  job.options.repeat, technique};
   const uint32_t samples = settings.samples.count;
   const auto draw = [&](Renderer& renderer) {
@@ -154,10 +157,20 @@ std::vector<LeftOut> leftOutOf(const CompareOptions& options, const Scene& scene
   return all;
 }
 
+// All pictures of a comparison have the exposure of the reference's.
+void showAlike(Comparison& comparison, const Camera& camera) {
+  SideBySide& view = comparison.view;
+  comparison.toneMapping = toneMappingOf(camera, view.reference.image);
+  addToneAttributes(comparison.toneMapping, view.reference.attributes);
+  for (TechniqueResult& technique : view.techniques)
+    addToneAttributes(comparison.toneMapping, technique.attributes);
+}
+
 void runCompare(CompareOptions options) {
   checkReportFolder(options.output);
   Progress progress(progressDisplay(options.isQuiet));
-  const Scene scene = loadScene(options.scene, options.time);
+  Scene scene = loadScene(options.scene, options.time);
+  applyTo(scene.camera, options.tone);
   Stats told;
   warnOf(scene, told);
   gpu::Device device({.device = options.device});
@@ -170,7 +183,6 @@ void runCompare(CompareOptions options) {
   comparison.commandLine = commandLine();
   comparison.device = device.info().name;
   comparison.time = options.time;
-  comparison.exposure = scene.camera.exposure;
   const ReferenceSettings reference = referenceSettings(options.reference, options.picture, options.size);
   comparison.paths = nameOf(reference.paths);
   comparison.techniquePaths = nameOf(options.picture.technique.transport.paths);
@@ -179,6 +191,7 @@ void runCompare(CompareOptions options) {
   std::vector<TechniqueResult> drawn = drawTechniques(job, options.techniques);
   comparison.leftOut = leftOutOf(options, scene);
   comparison.view = compareView(job, std::move(drawn));
+  showAlike(comparison, scene.camera);
   for (const Sensor& sensor : scene.sensors) comparison.sensors.push_back(compareSensor(job, sensor));
   writeReport(options.output, comparison);
 }
@@ -227,6 +240,7 @@ Command addCompare(CLI::App& program) {
       ->type_name("REPORT_DIR");
   addSize(*command, options->size);
   addTime(*command, options->time);
+  addTone(*command, options->tone);
   addTechniques(*command, options->techniques);
   addPictureSettings(*command, options->picture);
   addReference(*command, options->reference);

@@ -13,7 +13,8 @@ namespace nephroid {
 std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& device, Progress& progress,
                                  Stats& stats, const std::function<void(Renderer&)>& use) {
   const Stopwatch preparing;
-  const Scene scene = loadScene(request.scene, request.time, request.waves);
+  Scene scene = loadScene(request.scene, request.time, request.waves);
+  applyTo(scene.camera, request.tone);
   SceneTransport transport(scene, transportOf(request.settings.technique), progress);
   const auto technique = makeTechnique({device, request.settings.technique, transport, stats});
   Renderer renderer(device, transport, renderSettings(request.settings, request.size), *technique);
@@ -25,6 +26,7 @@ std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& devic
     const Stopwatch frame;
     time.passes = renderer.render(scene);
     time.milliseconds = frame.milliseconds();
+    scene.camera.exposure = renderer.exposure();  // metered once
     progress.advance();
   }
   progress.finish();

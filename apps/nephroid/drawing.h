@@ -16,6 +16,7 @@ struct FrameRequest {
   const std::filesystem::path& scene;
   double time = 0;  // s
   const PictureSettings& settings;
+  const ToneChoice& tone;
   uvec2 size{640, 480};  // pixels
   uint32_t repeat = 1;
   std::string name;           // of this step, shown at the progress bar

@@ -99,6 +99,37 @@ void addSize(CLI::App& command, uvec2& size) {
       ->default_str(std::to_string(size.x) + "x" + std::to_string(size.y));
 }
 
+void addTone(CLI::App& command, ToneChoice& choice) {
+  command
+      .add_option_function<std::string>(
+          "--exposure",
+          [&choice](const std::string& text) {
+            double number = 0;
+            const bool isAuto = text == kAutoExposure;
+            const bool isNumber = !isAuto && CLI::detail::lexical_cast(text, number) &&
+                                  number >= kLeastExposure && number <= kMostExposure;
+            if (!isAuto && !isNumber)
+              throw CLI::ValidationError("--exposure", "'" + text + "' is neither " + kAutoExposure +
+                                                           " nor a number from 1e-12 to 1e12");
+            choice.isExposureChosen = true;
+            choice.exposure = isAuto ? std::nullopt : std::optional(float(number));
+          },
+          "What luminance (nit) is multiplied by before the tone curve, or auto: metered on the picture, of "
+          "--frames on the first one. Without it: as the scene says")
+      ->type_name("N|auto");
+  constexpr const auto& curves = kToneCurveNames;
+  const std::vector<std::string> names(curves.begin(), curves.end());
+  command
+      .add_option_function<std::string>(
+          "--tone",
+          [&choice, names](const std::string& name) {
+            choice.tone = ToneCurve(std::ranges::find(names, name) - names.begin());
+          },
+          "The tone curve of pictures: " + joined(names) + ". Without it: as the scene says")
+      ->check(oneOf(names))
+      ->type_name("NAME");
+}
+
 void addDevice(CLI::App& command, std::string& device) {
   command
       .add_option("--device", device,
@@ -209,6 +240,11 @@ void checkOutput(const fs::path& file, const fs::path& scene, std::initializer_l
   if (fs::equivalent(file, scene, ignored))
     throw InputError("'" + file.string() + "' is the scene itself; name another file to write");
   checkWritable(file);
+}
+
+void addToneAttributes(const ToneMapping& toneMapping, std::vector<ImageAttribute>& attributes) {
+  attributes.push_back({"exposure", toneMapping.exposure});
+  attributes.push_back({"tone", std::string(nameOf(ToneCurve(toneMapping.curve)))});
 }
 
 void warnOf(const Scene& scene, Stats& stats) {

@@ -6,6 +6,7 @@
 #include "core/hash.h"
 #include "core/interrupt.h"
 #include "reference/fingerprint.h"
+#include "render/metering.h"
 #include "render/picture.h"
 
 namespace nephroid {
@@ -36,9 +37,10 @@ void write(const Estimate& estimate, const ReferenceJob& job) {
   const std::filesystem::path& output = job.common.output;
   const Image image = estimate.image();
   if (output.extension() == ".png")
-    writePng(output, pictureOf(image, job.scene.camera.exposure));
-  else
-    writeExr(output, image, referenceAttributes(estimate, job));
+    return writePng(output, pictureOf(image, toneMappingOf(job.scene.camera, image)));
+  std::vector<ImageAttribute> attributes = referenceAttributes(estimate, job);
+  if (job.sensor.empty()) addToneAttributes(toneMappingOf(job.scene.camera, image), attributes);
+  writeExr(output, image, attributes);
 }
 
 template <class T>

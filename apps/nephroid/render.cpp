@@ -9,6 +9,7 @@
 #include "formats/load.h"
 #include "reference/image.h"
 #include "refining.h"
+#include "render/metering.h"
 #include "report/missing_light.h"
 
 namespace nephroid {
@@ -23,6 +24,7 @@ struct FrameRange {
 
 struct RenderOptions : CommonOptions {
   PictureSettings picture;
+  ToneChoice tone;
   uvec2 size{640, 480};  // pixels
   std::optional<FrameRange> frames;
   double framesPerSecond = 60;
@@ -33,6 +35,16 @@ struct RenderOptions : CommonOptions {
 struct FrameJob {
   double time = 0;  // s
   fs::path output;
+};
+
+// What one frame of a film leaves to the next.
+struct Film {
+  ToneChoice tone;
+  WaveRuns waves;
+  void keep(float exposure) {
+    tone.isExposureChosen = true;
+    tone.exposure = exposure;
+  }
 };
 
 // out.png becomes out.0007.png.
@@ -51,21 +63,36 @@ std::vector<FrameJob> jobsOf(const RenderOptions& options) {
   return jobs;
 }
 
+std::vector<ImageAttribute> attributesOf(const Renderer& renderer, const PictureSettings& settings) {
+  std::vector<ImageAttribute> attributes = imageAttributes(settings, "nit");
+  addToneAttributes(renderer.toneMapping(), attributes);
+  return attributes;
+}
+
 void writePicture(Renderer& renderer, const PictureSettings& settings, const fs::path& output) {
   if (output.extension() == ".png")
     writePng(output, renderer.picture());
   else
-    writeExr(output, renderer.layers(), imageAttributes(settings, "nit"));
+    writeExr(output, renderer.layers(), attributesOf(renderer, settings));
 }
 
-// Draws and writes a frame; returns the times of all its repetitions.
+// Draws and writes a frame; returns the times of all its repetitions. All frames after the first have its
+// exposure.
 std::vector<FrameTime> drawJob(const RenderOptions& options, const FrameJob& job, gpu::Device& device,
-                               Progress& progress, Stats& stats, WaveRuns& waves) {
-  const FrameRequest request{options.scene, job.time,       options.picture,
-                             options.size,  options.repeat, job.output.filename().string(),
-                             &waves};
-  return drawFrame(request, device, progress, stats,
-                   [&](Renderer& renderer) { writePicture(renderer, options.picture, job.output); });
+                               Progress& progress, Stats& stats, Film& film) {
+  const ToneChoice tone = film.tone;
+  const FrameRequest request{options.scene,
+                             job.time,
+                             options.picture,
+                             tone,
+                             options.size,
+                             options.repeat,
+                             job.output.filename().string(),
+                             &film.waves};
+  return drawFrame(request, device, progress, stats, [&](Renderer& renderer) {
+    film.keep(renderer.exposure());
+    writePicture(renderer, options.picture, job.output);
+  });
 }
 
 void renderReference(const RenderOptions& options, const std::vector<FrameJob>& jobs) {
@@ -73,14 +100,15 @@ void renderReference(const RenderOptions& options, const std::vector<FrameJob>& 
   Stats stats;
   stats.technique = kReferenceName;
   stats.device = "host";
-  WaveRuns waves;
+  Film film{options.tone, {}};
   const StopRule stop = stopRule(options.reference, options.picture);
   for (const FrameJob& job : jobs) {
     const Stopwatch preparing;
     CommonOptions common = options;
     common.time = job.time;
     common.output = job.output;
-    const Scene scene = loadScene(options.scene, job.time, &waves);
+    Scene scene = loadScene(options.scene, job.time, &film.waves);
+    applyTo(scene.camera, film.tone);
     warnOf(scene, stats);
     stats.notes = missingLight(scene, std::nullopt);
     const RayScene rays(scene);
@@ -88,6 +116,7 @@ void renderReference(const RenderOptions& options, const std::vector<FrameJob>& 
     ReferenceImage image(scene, rays, settings);
     stats.prepareMilliseconds += preparing.milliseconds();
     refineToFile(image, {common, options.reference, settings, stop, scene, "nit", ""}, progress, stats);
+    film.keep(toneMappingOf(scene.camera, image.image()).exposure);
   }
   reportStats(options.stats, stats);
 }
@@ -107,9 +136,9 @@ void runRender(const RenderOptions& options) {
   describeSettings(options.picture, stats);
 
   std::vector<FrameTime> times;
-  WaveRuns waves;
+  Film film{options.tone, {}};
   for (const FrameJob& job : jobs) {
-    std::vector<FrameTime> part = drawJob(options, job, device, progress, stats, waves);
+    std::vector<FrameTime> part = drawJob(options, job, device, progress, stats, film);
     std::move(part.begin(), part.end(), std::back_inserter(times));
   }
   addMedianFrame(std::move(times), stats);
@@ -149,6 +178,7 @@ Command addRender(CLI::App& program) {
   addSize(*command, options->size);
   addTime(*command, options->time);
   addFrames(*command, *options);
+  addTone(*command, options->tone);
   addTechnique(*command, options->picture);
   addReference(*command, options->reference);
   addResume(*command, options->reference);

@@ -16,6 +16,7 @@ Command addView(CLI::App& program) {
       ->type_name("");
   addSize(*command, options->size);
   addTime(*command, options->time);
+  addTone(*command, options->tone);
   addTechnique(*command, options->settings);
   addDevice(*command, options->device);
   command

@@ -112,6 +112,8 @@ constexpr KeyBinding kBindings[] = {
     {"Shift J", "Time 0", GLFW_KEY_J, false, true, [](Viewer& viewer) { viewer.setTime(0); }},
     {"N", "Drop a stone into the water under the pointer", GLFW_KEY_N, false, false,
      [](Viewer& viewer) { viewer.dropStone(); }},
+    {"G", "Meter the exposure again, where the camera has none of its own", GLFW_KEY_G, false, false,
+     [](Viewer& viewer) { viewer.state().metered.reset(); }},
     {"R", "Resolution: full, a half, a third", GLFW_KEY_R, false, false,
      [](Viewer& viewer) { viewer.state().divisor = viewer.state().divisor % 3 + 1; }},
     {"T", "Times", GLFW_KEY_T, false, false,

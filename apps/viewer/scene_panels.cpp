@@ -119,6 +119,30 @@ void drawWarnings(const ViewerState& state) {
   ImGui::PopStyleColor();
 }
 
+void drawExposure(Camera& camera, std::optional<float>& metered) {
+  bool isAuto = !camera.exposure;
+  if (ImGui::Checkbox("Exposure by itself", &isAuto))
+    camera.exposure = isAuto ? std::nullopt : std::optional(metered.value_or(1.0f));
+  tooltip("Metered when the scene is opened, and kept until it is metered again");
+  if (camera.exposure) {
+    slider("Exposure", *camera.exposure, 1e-6f, 1e3f, "%.4g", "Multiplies luminance before tone mapping",
+           true);
+    return;
+  }
+  if (ImGui::Button("Meter again")) metered.reset();
+  tooltip("On the picture as it is now (G)");
+  ImGui::SameLine();
+  if (metered) ImGui::TextDisabled("%.4g, EV100 %.1f", double(*metered), ev100OfExposure(double(*metered)));
+}
+
+void drawTone(Camera& camera) {
+  constexpr const auto& names = kToneCurveNames;
+  auto chosen = static_cast<int>(camera.tone);
+  if (ImGui::Combo("Tone", &chosen, names.data(), static_cast<int>(names.size())))
+    camera.tone = static_cast<ToneCurve>(chosen);
+  tooltip("The curve from luminance to what a screen shows");
+}
+
 }  // namespace
 
 void drawScenePanel(ViewerState& state) {
@@ -189,7 +213,8 @@ void drawAirPanel(ViewerState& state) {
 void drawCameraPanel(ViewerState& state) {
   if (!ImGui::CollapsingHeader("Camera")) return;
   Camera& camera = state.scene.camera;
-  slider("Exposure", camera.exposure, 1e-6f, 1e3f, "%.4g", "Multiplies luminance before tone mapping", true);
+  drawExposure(camera, state.metered);
+  drawTone(camera);
   slider("Field of view", camera.verticalFov, 5, 120, "%.1f°", "From the lower edge to the upper (degrees)");
   vec3 position = camera.position, target = camera.target;
   if (dragMeters("Position", position, "Where it stands (m)") && position != target)

@@ -20,8 +20,9 @@ inline PictureSettings viewerSettings() {
 struct ViewerOptions {
   std::filesystem::path scene;  // empty: none yet
   PictureSettings settings = viewerSettings();
-  uvec2 size{0};       // of the picture, pixels; 0: the size of the last use
-  double time = 0;     // s
+  uvec2 size{0};    // of the picture, pixels; 0: the size of the last use
+  double time = 0;  // s
+  ToneChoice tone;
   std::string device;  // as gpu::DeviceOptions::device
   uint32_t frames =
       0;  // draw this many frames, compute each completely, and end; 0: until the window is closed

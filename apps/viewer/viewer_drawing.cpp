@@ -12,23 +12,31 @@ Viewer::Drawing::~Drawing() {
   work.wait();
 }
 
+// With the exposure that was metered, where the camera has none.
+Scene Viewer::exposed(Scene scene) const {
+  if (!scene.camera.exposure) scene.camera.exposure = state_.metered;
+  return scene;
+}
+
 Viewer::Drawn Viewer::wantedOf(const Scene& scene, const PictureSettings& drawnWith, uint32_t stage) const {
   return {stateOf(scene),
           scene.time,
           pictureSize(),
           drawnWith.technique.transport.paths,
           state_.settings.samples.count,
-          stage};
+          stage,
+          scene.camera.exposure ? std::nullopt : state_.metered};
 }
 
 // A new stage, and its first frame.
 void Viewer::beginStage(std::unique_ptr<Prepared> prepared) {
-  Scene scene = opensScene_ ? prepared->scene : state_.scene;
+  if (opensScene_) state_.metered.reset();
+  const Scene& scene = opensScene_ ? prepared->scene : state_.scene;
   const Drawn wanted = wantedOf(scene, prepared->settings, stageCount_ + 1);
   const bool keepsLight = options_.frames == 0;
   drawing_ = std::make_unique<Drawing>(wanted, std::move(prepared), true);
   drawing_->work = std::async(std::launch::async, [&device = graphics_->device(), keepsLight,
-                                                   scene = std::move(scene), &drawing = *drawing_] {
+                                                   scene = exposed(scene), &drawing = *drawing_] {
     drawing.made = std::make_unique<Stage>(device, drawing.prepared, drawing.of.size, keepsLight);
     drawing.passes = drawing.made->render(scene);
   });
@@ -48,9 +56,10 @@ void Viewer::beginFrame() {
   }
   stage.prepared()->progress.renew();
   drawing_ = std::make_unique<Drawing>(wanted, stage.prepared(), false);
-  drawing_->work = std::async(std::launch::async, [&stage, scene = state_.scene, &drawing = *drawing_] {
-    drawing.passes = stage.render(scene);
-  });
+  drawing_->work =
+      std::async(std::launch::async, [&stage, scene = exposed(state_.scene), &drawing = *drawing_] {
+        drawing.passes = stage.render(scene);
+      });
 }
 
 bool Viewer::isStageBusy() const {
@@ -100,7 +109,9 @@ bool Viewer::takeDrawing() {
   state_.outputs = graphics_->stage->renderer().outputs();
   state_.memoryBytes = graphics_->device().memoryBytes();
   state_.gathered = 0;
+  state_.metered = state_.scene.camera.exposure ? std::nullopt : std::optional(stage.exposure());
   drawn_ = done->of;
+  drawn_.metered = state_.metered;
   lastChange_ = Clock::now();
   return true;
 }

@@ -100,8 +100,10 @@ void Viewer::openNow(const fs::path& file) {
 }
 
 void Viewer::prepareOpening() {
-  prepare([file = opening_, text = openingText_, time = options_.time] {
-    return isToml(file) ? readTomlScene(text, file, time) : loadScene(file, time);
+  prepare([file = opening_, text = openingText_, time = options_.time, tone = options_.tone] {
+    Scene scene = isToml(file) ? readTomlScene(text, file, time) : loadScene(file, time);
+    applyTo(scene.camera, tone);
+    return scene;
   });
 }
 

@@ -72,6 +72,7 @@ class Viewer {
     Paths paths = Paths::transmission;
     uint32_t samples = 1;  // 0: a frame was canceled, and the stage no longer has what the picture shows
     uint32_t stage = 0;    // number of the stage, counted from the start
+    std::optional<float> metered{};  // the exposure, where the camera has none
     bool operator==(const Drawn&) const = default;
   };
 
@@ -115,6 +116,7 @@ class Viewer {
   void writeStatsOfFrames() const;
   bool isDone() const;  // what a run without a user is for
   // viewer_drawing.cpp
+  Scene exposed(Scene scene) const;
   Drawn wantedOf(const Scene& scene, const PictureSettings& drawnWith, uint32_t stage) const;
   void beginStage(std::unique_ptr<Prepared> prepared);
   void beginFrame();

@@ -42,11 +42,12 @@ inline constexpr std::size_t kOverlays = 5;
 enum class Shown { picture, error, output };
 
 struct ViewerState {
-  std::filesystem::path file;  // of the scene
-  bool isOpen = false;         // there is a scene
-  Scene scene;                 // as shown now
-  PictureSettings settings;    // as the user wants them
-  uint32_t gathered = 0;       // samples of each pixel in the picture; 0: one, with smoothed edges
+  std::filesystem::path file;    // of the scene
+  bool isOpen = false;           // there is a scene
+  Scene scene;                   // as shown now
+  PictureSettings settings;      // as the user wants them
+  std::optional<float> metered;  // the exposure of a camera that has none; none: the next frame is metered
+  uint32_t gathered = 0;         // samples of each pixel in the picture; 0: one, with smoothed edges
   History history;
   SceneState firstState;  // as in the file
   Selection selection;

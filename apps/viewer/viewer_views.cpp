@@ -69,7 +69,7 @@ void Viewer::refineReference() {
   if (!isPictureWhole() || stateOf(state_.scene) != drawn_.state || state_.scene.time != drawn_.time) return;
   const double atRest = std::chrono::duration<double>(Clock::now() - lastChange_).count();
   if (isWanted && !isThat && atRest >= kSecondsAtRest) {
-    referenceWorker_.start(state_.scene, referenceSettingsFor(drawn_.paths, drawn_.size));
+    referenceWorker_.start(exposed(state_.scene), referenceSettingsFor(drawn_.paths, drawn_.size));
     referenceOf_ = drawn_;
     comparedOf_.reset();
   }

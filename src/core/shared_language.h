@@ -25,6 +25,7 @@ using glm::ivec2;
 using glm::ivec3;
 using glm::length;
 using glm::lessThanEqual;
+using glm::log2;
 using glm::mat3;
 using glm::mat4;
 using glm::max;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/settings.h"
 #include "formats/save_imports.h"
 #include "formats/toml_table.h"
 #include "formats/toml_text.h"
@@ -13,14 +14,27 @@
 namespace nephroid {
 namespace {
 
+// By the key that is there.
+void saveExposure(const Camera& before, const Camera& after, TomlText& text) {
+  if (before.exposure == after.exposure) return;
+  const toml::table* camera = text.table("camera");
+  const std::string value = after.exposure ? tomlNumber(*after.exposure) : tomlString(kAutoExposure);
+  if (!camera || !camera->contains("ev100"))
+    text.set("camera", "exposure", value);
+  else if (after.exposure)
+    text.set(*camera, "ev100", tomlNumber(float(ev100OfExposure(double(*after.exposure)))));
+  else
+    text.replace(*camera, "ev100", "exposure", value);
+}
+
 void saveCamera(const Camera& before, const Camera& after, TomlText& text) {
   if (before == after) return;
   text.set("camera", "position", tomlVector(after.position));
   text.set("camera", "target", tomlVector(after.target));
   if (before.verticalFov != after.verticalFov || !text.table("camera"))
     text.set("camera", "fov", tomlNumber(after.verticalFov));
-  if (before.exposure != after.exposure || !text.table("camera"))
-    text.set("camera", "exposure", tomlNumber(after.exposure));
+  saveExposure(before, after, text);
+  if (before.tone != after.tone) text.set("camera", "tone", tomlString(nameOf(after.tone)));
   if (upFor(after.target - after.position) != after.up) text.set("camera", "up", tomlVector(after.up));
 }
 

@@ -20,12 +20,32 @@ std::optional<TomlTable> section(const toml::table& root, TomlTable& top, const 
   return TomlTable(*table, file, "[" + key + "]");
 }
 
+// A number, or "auto", or from its exposure value.
+std::optional<float> readExposure(TomlTable& table) {
+  const bool hasValue = table.has("ev100");
+  if (hasValue && table.has("exposure"))
+    table.fail("ev100", "and \"exposure\" say the same; give one of them");
+  if (hasValue) return float(exposureOfEv100(*table.number("ev100", {-kMostEv100, kMostEv100})));
+  if (table.isText("exposure")) {
+    if (*table.text("exposure") != kAutoExposure)
+      table.fail("exposure", "must be a number or \"" + std::string(kAutoExposure) + "\"");
+    return std::nullopt;
+  }
+  const auto number = table.number("exposure", {kLeastExposure, kMostExposure});
+  return number ? std::optional(float(*number)) : std::nullopt;
+}
+
+ToneCurve readTone(TomlTable& table) {
+  return ToneCurve(table.choice("tone", {kToneCurveNames.begin(), kToneCurveNames.end()}));
+}
+
 Camera readCamera(TomlTable table) {
   Camera camera;
   camera.position = table.requiredVector3("position");
   camera.target = table.vector3("target").value_or(camera.target);
   camera.verticalFov = static_cast<float>(table.number("fov", {0.01, 179}).value_or(camera.verticalFov));
-  camera.exposure = static_cast<float>(table.number("exposure", {1e-12, 1e12}).value_or(camera.exposure));
+  camera.exposure = readExposure(table);
+  camera.tone = readTone(table);
   if (!(glm::distance(camera.position, camera.target) > 0)) {
     table.fail("position", "is the target as well; they must differ");
   }

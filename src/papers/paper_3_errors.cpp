@@ -41,7 +41,7 @@ ByteImage pictureOf(const SensorLayer& layer, uvec2 size) {
     std::vector<float>& values = image.channel(std::string(1, "RGB"[c]));
     for (std::size_t i = 0; i < layer.size(); ++i) values[i] = layer[i][c];
   }
-  return pictureOf(image, kExposurePerLux);
+  return pictureOf(image, {kExposurePerLux, kToneNeutral}, "", Rounding::nearest);
 }
 
 double flipOf(const SensorLayer& truth, const SensorLayer& layer, uvec2 size) {

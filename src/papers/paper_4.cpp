@@ -12,7 +12,7 @@
 #include "papers/paper_scenes.h"
 #include "reference/lights.h"
 #include "reference/pinhole.h"
-#include "render/tone_mapping.h"
+#include "render/metering.h"
 #include "scene/air.h"
 
 namespace nephroid {
@@ -36,11 +36,11 @@ struct Drawn {
   std::vector<AirPlanes> planes;
 };
 
-Levels levelsOf(const Image& image, float exposure) {
+Levels levelsOf(const Image& image, const ToneMapping& toneMapping) {
   Levels levels;
   const std::array<const std::vector<float>*, 3> channels{image.find("R"), image.find("G"), image.find("B")};
   for (std::size_t i = 0; i < image.pixelCount(); ++i) {
-    const vec3 shown = displayed({channels[0]->at(i), channels[1]->at(i), channels[2]->at(i)}, exposure);
+    const vec3 shown = displayed({channels[0]->at(i), channels[1]->at(i), channels[2]->at(i)}, toneMapping);
     for (int c = 0; c < 3; ++c) levels.push_back(256 * shown[c]);
   }
   return levels;
@@ -56,7 +56,7 @@ class Bench {
                      progress_);
     const double seconds = bench.seconds({.warmUps = 1, .frames = frames}, scene);
     Drawn drawn{bench.renderer().layers(), {}, seconds, bench.renderer().shafts().planes()};
-    drawn.levels = levelsOf(drawn.image, scene.camera.exposure);
+    drawn.levels = levelsOf(drawn.image, toneMappingOf(scene.camera, drawn.image));
     return drawn;
   }
 
@@ -112,7 +112,7 @@ Marched marchRays(const Scene& scene, const Image& surfaces) {
       }
     }
   });
-  return {levelsOf(image, scene.camera.exposure), watch.seconds()};
+  return {levelsOf(image, toneMappingOf(scene.camera, image)), watch.seconds()};
 }
 
 std::string rowOf(const char* figure, const char* symbol, uint32_t count) {

@@ -5,6 +5,7 @@
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
 #include "render/frame_data.h"
+#include "render/metering.h"
 #include "render/samples/sample_places.h"
 #include "scene/volume.h"
 
@@ -141,9 +142,12 @@ std::vector<PassTime> Renderer::draw(const Scene& scene) {
   onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_, shafts_.lightsInAir()); });
   if (remade.beams) onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
   arePlanesInAirChosen_ = false;
+  const bool isMetered = !scene.camera.exposure;
+  if (isMetered || settings_.samples == 1) drawSample(vec2(0), remade, passes);
+  if (isMetered) meter(passes);
   if (settings_.samples > 1) {
     places_ = samplePlaces(settings_.samples);
-    addSample(remade, passes);
+    addSample(isMetered ? kSightAlone : remade, passes);
     std::vector<PassTime> all = summedByName(passes);
     while (sums_.count() < settings_.samples) {
       throwIfInterrupted();
@@ -154,7 +158,6 @@ std::vector<PassTime> Renderer::draw(const Scene& scene) {
     drawMean(all);
     return all;
   }
-  drawSample(vec2(0), remade, passes);
   const std::vector<PassTime> last = device_.submitAndWait([&](gpu::CommandList& commands) {
     commands.pass("composite", [&] { composite(commands, programs_.picture, {&images_.picture}, {}); });
   });
@@ -182,9 +185,18 @@ void Renderer::addSample(const Remade& remade, std::vector<PassTime>& passes) {
 
 void Renderer::drawMean(std::vector<PassTime>& passes) {
   const std::vector<PassTime> last = device_.submitAndWait([&](gpu::CommandList& commands) {
-    commands.pass("mean of samples", [&] { sums_.recordMean(commands, exposure_, images_.picture); });
+    commands.pass("mean of samples", [&] { sums_.recordMean(commands, toneMapping_, images_.picture); });
   });
   passes.insert(passes.end(), last.begin(), last.end());
+}
+
+// Of the sample that was drawn last. The planes in the air are then chosen as if it had not been.
+void Renderer::meter(std::vector<PassTime>& passes) {
+  const std::vector<PassTime> some = addLayers();
+  passes.insert(passes.end(), some.begin(), some.end());
+  onHost(passes, "metering", [&] { toneMapping_.exposure = meteredExposure(sums_.luminances()); });
+  sums_.begin();
+  arePlanesInAirChosen_ = false;
 }
 
 // Finds and lights what the pixels see at this place (pixels, from their middles).
@@ -218,7 +230,7 @@ void Renderer::place(const Scene& scene) {
   middleView_ = viewOf(scene.camera, settings_.size);
   shafts_.update(scene, middleView_);
   environment_ = scene.environment;
-  exposure_ = scene.camera.exposure;
+  toneMapping_ = toneMappingOf(scene.camera.exposure.value_or(1.0f), scene.camera.tone);
   gpuScene_.place(scene);
   surfaces_.clear();
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {
@@ -345,7 +357,7 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
     commands.render(rendered, [&] {
       commands.draw(programs.at(traits), 3, 1,
                     CompositeConstants{gpuScene_.materials(), environment_.ambient, environment_.background,
-                                       exposure_, waysInWater_.extinctionAtEye()},
+                                       toneMapping_, waysInWater_.extinctionAtEye()},
                     {{"normal", ofEach(&SeenImages::normal)},
                      {"albedo", ofEach(&SeenImages::albedo)},
                      {"transmittance", ofEach(&SeenImages::transmittance)},

@@ -47,6 +47,10 @@ class Renderer {
   // Draws one more of `samples` samples of the last frame, and the picture and the layers of those that were
   // gathered so far. The first call after `render` begins anew; so does one for another number of samples.
   std::vector<PassTime> gather(uint32_t samples);
+  // What multiplied the luminance of the last frame's picture: the camera's exposure, or where it has none
+  // the one that was metered, on one sample in the middle of each pixel, however many are drawn.
+  float exposure() const { return toneMapping_.exposure; }
+  const ToneMapping& toneMapping() const { return toneMapping_; }  // with the camera's curve
   uint32_t gathered() const { return sums_.count(); }  // samples in the picture; 0: the one of `render`
 
   // The picture of the last frame, of the mean of its samples: exposed, tone-mapped, sRGB, 3 components.
@@ -81,6 +85,7 @@ class Renderer {
   void drawSample(vec2 at, Remade remade, std::vector<PassTime>& passes);
   void addSample(const Remade& remade, std::vector<PassTime>& passes);
   void drawMean(std::vector<PassTime>& passes);
+  void meter(std::vector<PassTime>& passes);
   void drawFrame(const Remade& remade, std::vector<PassTime>& passes);
   void drawReceivers(gpu::CommandList& commands);
   void illuminate(gpu::CommandList& commands);
@@ -118,7 +123,7 @@ class Renderer {
   View middleView_{}, view_{};     // of the pixels' middles, and of the sample
   std::vector<Surface> surfaces_;  // of the objects
   Environment environment_;
-  float exposure_ = 1;
+  ToneMapping toneMapping_{1, kToneNeutral};
   std::vector<MeshExtent> extents_;  // of the meshes
 };
 

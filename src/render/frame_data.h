@@ -6,6 +6,7 @@
 
 #include "lights/emitter.h"
 #include "render/air/air_data.h"
+#include "render/tone_mapping.h"
 
 SHARED_BEGIN
 
@@ -62,7 +63,7 @@ struct CompositeConstants {
   BUFFER_ADDRESS(SceneMaterials) materials;
   vec3 ambient;     // lux
   vec3 background;  // nit
-  float exposure;
+  ToneMapping toneMapping;
   vec3 extinctionAtEye;  // 1/m, of the water that the eye is in
 };
 

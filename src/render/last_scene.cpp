@@ -23,7 +23,8 @@ std::vector<Light> shapes(const std::vector<Light>& lights) {
 
 Remade LastScene::replace(const Scene& scene, bool keepsLight, bool beamsFollowCamera) {
   Camera camera = scene.camera;
-  camera.exposure = 1;
+  camera.exposure.reset();
+  camera.tone = ToneCurve::neutral;
   std::vector<Standing> objects;
   for (const Object& object : scene.objects)
     objects.push_back({object.material, object.placement,

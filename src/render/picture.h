@@ -4,11 +4,17 @@
 #include <string>
 
 #include "core/image.h"
+#include "render/tone_mapping.h"
 
 namespace nephroid {
 
-// The picture of a layer's R, G and B (nit); "" is the total. Values are multiplied by `exposure`,
-// tone-mapped and converted to sRGB, 3 components. Values that are not numbers become black.
-ByteImage pictureOf(const Image& image, float exposure, const std::string& layer = "");
+// How the fraction of a level becomes whole: by the pattern of what is looked at, or to the nearest level for
+// what is measured.
+enum class Rounding { dithered, nearest };
+
+// The picture of a layer's R, G and B (nit); "" is the total: exposed, tone-mapped and converted to sRGB, 3
+// components. Values that are not numbers become black.
+ByteImage pictureOf(const Image& image, const ToneMapping& toneMapping, const std::string& layer = "",
+                    Rounding rounding = Rounding::dithered);
 
 }  // namespace nephroid

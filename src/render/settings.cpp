@@ -14,6 +14,11 @@ std::vector<SettingsView> withFrame(std::vector<SettingsView> views, PictureSett
 
 }  // namespace
 
+void applyTo(Camera& camera, const ToneChoice& choice) {
+  if (choice.isExposureChosen) camera.exposure = choice.exposure;
+  if (choice.tone) camera.tone = *choice.tone;
+}
+
 RenderSettings renderSettings(const PictureSettings& settings, uvec2 size) {
   RenderSettings render;
   render.size = size;

@@ -1,6 +1,7 @@
 // The settings of pictures, apart from those of the technique.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/shared_language.h"
@@ -8,6 +9,7 @@
 #include "render/air/settings.h"
 #include "render/samples/settings.h"
 #include "render/sight/settings.h"
+#include "scene/scene.h"
 #include "techniques/settings.h"
 
 namespace nephroid {
@@ -31,6 +33,14 @@ struct PictureSettings {
   ShaftSettings shafts;
   bool operator==(const PictureSettings&) const = default;
 };
+
+// What a user chose in place of what the scene's camera says.
+struct ToneChoice {
+  bool isExposureChosen = false;
+  std::optional<float> exposure;  // where it is chosen; none: metered
+  std::optional<ToneCurve> tone;
+};
+void applyTo(Camera& camera, const ToneChoice& choice);
 
 // The render settings for a picture of `size` pixels.
 RenderSettings renderSettings(const PictureSettings& settings, uvec2 size);

@@ -25,15 +25,16 @@ void checkSizes(const Image& reference, const Image& image, const std::string& t
                    size(reference) + "; they have to be of one size");
 }
 
-FlipResult flipOf(const Image& reference, const Image& image, float exposure) {
+FlipResult flipOf(const Image& reference, const Image& image, const ToneMapping& toneMapping) {
   FlipResult flip;
-  flip.map = ldrFlip(pictureOf(reference, exposure), pictureOf(image, exposure));
+  flip.map = ldrFlip(pictureOf(reference, toneMapping, "", Rounding::nearest),
+                     pictureOf(image, toneMapping, "", Rounding::nearest));
   flip.mean = std::accumulate(flip.map.begin(), flip.map.end(), 0.0) / double(flip.map.size());
   flip.maximum = double(*std::max_element(flip.map.begin(), flip.map.end()));
   return flip;
 }
 
-Errors errorsOf(const SideBySide& pair, const TechniqueResult& technique, float exposure) {
+Errors errorsOf(const SideBySide& pair, const TechniqueResult& technique, const ToneMapping& toneMapping) {
   const Image& reference = pair.reference.image;
   checkSizes(reference, technique.image, technique.stats.technique);
   Errors errors;
@@ -45,15 +46,16 @@ Errors errorsOf(const SideBySide& pair, const TechniqueResult& technique, float 
     errors.layers.push_back(
         {"caustics seen directly", layerErrors(pixelsOf(reference, pair.seesReceiver),
                                                pixelsOf(technique.image, pair.seesReceiver), "caustics.")});
-  if (pair.sensor.empty()) errors.flip = flipOf(reference, technique.image, exposure);
+  if (pair.sensor.empty()) errors.flip = flipOf(reference, technique.image, toneMapping);
   return errors;
 }
 
 }  // namespace
 
-std::vector<Errors> errorsOf(const SideBySide& pair, float exposure) {
+std::vector<Errors> errorsOf(const SideBySide& pair, const ToneMapping& toneMapping) {
   std::vector<Errors> all;
-  for (const TechniqueResult& technique : pair.techniques) all.push_back(errorsOf(pair, technique, exposure));
+  for (const TechniqueResult& technique : pair.techniques)
+    all.push_back(errorsOf(pair, technique, toneMapping));
   return all;
 }
 

@@ -9,6 +9,7 @@
 #include "core/image_io.h"
 #include "core/shared_language.h"
 #include "core/stats.h"
+#include "render/tone_mapping.h"
 #include "report/metrics.h"
 
 namespace nephroid {
@@ -48,12 +49,12 @@ struct Comparison {
   std::string scene;    // its file's name
   std::string commandLine;
   std::string device;
-  double time = 0;  // s, the scene's time
-  float exposure = 1;
-  std::string paths;           // the reference's: "transmission" or "all"
-  std::string techniquePaths;  // the techniques'
-  std::string spectrum;        // "channels" or "continuous"
-  uint32_t photons = 0;        // in a pass of the reference
+  double time = 0;                           // s, the scene's time
+  ToneMapping toneMapping{1, kToneNeutral};  // of all pictures
+  std::string paths;                         // the reference's: "transmission" or "all"
+  std::string techniquePaths;                // the techniques'
+  std::string spectrum;                      // "channels" or "continuous"
+  uint32_t photons = 0;                      // in a pass of the reference
   std::vector<LeftOut> leftOut;
   SideBySide view;
   std::vector<SideBySide> sensors;
@@ -79,7 +80,7 @@ struct Errors {
 // The errors of each technique: of the total, of direct light and of caustics, where the images have these
 // layers. For a camera also of the caustics in pixels without a caster in front. Throws InputError where
 // image sizes differ.
-std::vector<Errors> errorsOf(const SideBySide& pair, float exposure);
+std::vector<Errors> errorsOf(const SideBySide& pair, const ToneMapping& toneMapping);
 
 // A sentence for the reader of the report: whether reference and techniques follow the same paths of light,
 // so that only numerical errors remain.

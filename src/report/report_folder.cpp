@@ -81,10 +81,10 @@ void writeReport(const fs::path& folder, const Comparison& comparison) {
   AtomicFolder written(folder);
   ImageFiles images(comparison, written.temporary());
   ReportPictures pictures;
-  pictures.view = picturesOf(comparison.view, errors.view, comparison.exposure);
+  pictures.view = picturesOf(comparison.view, errors.view, comparison.toneMapping);
   images.write(comparison.view, pictures.view, std::nullopt);
   for (std::size_t i = 0; i < comparison.sensors.size(); ++i) {
-    pictures.sensors.push_back(picturesOf(comparison.sensors[i], errors.sensors[i], comparison.exposure));
+    pictures.sensors.push_back(picturesOf(comparison.sensors[i], errors.sensors[i], comparison.toneMapping));
     images.write(comparison.sensors[i], pictures.sensors.back(), i);
   }
   std::vector<std::string> files{kPage, kNumbers};

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/settings.h"
+#include "scene/tone_curve.h"
+
 namespace nephroid {
 namespace {
 
@@ -83,9 +86,9 @@ Json unitsJson() {
 
 ComparisonErrors errorsOf(const Comparison& comparison) {
   ComparisonErrors errors;
-  errors.view = errorsOf(comparison.view, comparison.exposure);
+  errors.view = errorsOf(comparison.view, comparison.toneMapping);
   for (const SideBySide& sensor : comparison.sensors)
-    errors.sensors.push_back(errorsOf(sensor, comparison.exposure));
+    errors.sensors.push_back(errorsOf(sensor, comparison.toneMapping));
   return errors;
 }
 
@@ -109,7 +112,8 @@ std::string reportJson(const Comparison& comparison, const ComparisonErrors& err
             {"command", comparison.commandLine},
             {"device", comparison.device},
             {"time_s", number(comparison.time)},
-            {"exposure", number(double(comparison.exposure))},
+            {"exposure", number(double(comparison.toneMapping.exposure))},
+            {"tone", nameOf(ToneCurve(comparison.toneMapping.curve))},
             {"paths", comparison.paths},
             {"technique_paths", comparison.techniquePaths},
             {"spectrum", comparison.spectrum},

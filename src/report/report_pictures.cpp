@@ -33,10 +33,10 @@ std::vector<ShownLayer> layersOf(const SideBySide& pair) {
   return layers;
 }
 
-PictureView cameraView(const SideBySide& pair, const ShownLayer& layer, float exposure) {
-  PictureView view{layer.name, std::nullopt, pictureOf(pair.reference.image, exposure, layer.prefix), {}};
+PictureView cameraView(const SideBySide& pair, const ShownLayer& layer, const ToneMapping& toneMapping) {
+  PictureView view{layer.name, std::nullopt, pictureOf(pair.reference.image, toneMapping, layer.prefix), {}};
   for (const TechniqueResult& technique : pair.techniques)
-    view.techniques.push_back(pictureOf(technique.image, exposure, layer.prefix));
+    view.techniques.push_back(pictureOf(technique.image, toneMapping, layer.prefix));
   return view;
 }
 
@@ -88,11 +88,12 @@ std::vector<ErrorMap> mapsOf(const SideBySide& pair, const TechniqueResult& tech
 
 }  // namespace
 
-SidePictures picturesOf(const SideBySide& pair, const std::vector<Errors>& errors, float exposure) {
+SidePictures picturesOf(const SideBySide& pair, const std::vector<Errors>& errors,
+                        const ToneMapping& toneMapping) {
   const std::vector<ShownLayer> layers = layersOf(pair);
   SidePictures pictures;
   for (const ShownLayer& layer : layers)
-    pictures.views.push_back(pair.sensor.empty() ? cameraView(pair, layer, exposure)
+    pictures.views.push_back(pair.sensor.empty() ? cameraView(pair, layer, toneMapping)
                                                  : sensorView(pair, layer));
   for (std::size_t i = 0; i < pair.techniques.size(); ++i)
     pictures.maps.push_back(mapsOf(pair, pair.techniques[i], errors[i], layers));

@@ -36,6 +36,7 @@ struct SidePictures {
 };
 
 // `errors` are those of `pair`. A camera is shown as pictures, a sensor in false color.
-SidePictures picturesOf(const SideBySide& pair, const std::vector<Errors>& errors, float exposure);
+SidePictures picturesOf(const SideBySide& pair, const std::vector<Errors>& errors,
+                        const ToneMapping& toneMapping);
 
 }  // namespace nephroid

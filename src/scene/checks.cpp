@@ -113,7 +113,7 @@ void checkCamera(const Camera& camera) {
   part.place("target", camera.target);
   part.place("up", camera.up);
   part.within("verticalFov", camera.verticalFov, 0.01f, 179);
-  part.positive("exposure", camera.exposure);
+  if (camera.exposure) part.positive("exposure", *camera.exposure);
   const vec3 view = camera.target - camera.position;
   if (!(length(view) > 0)) part.fail("position is the target as well; they must differ");
   if (!(length(camera.up) > 0)) part.fail("up is 0; it must point to a side of the view");

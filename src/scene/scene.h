@@ -14,6 +14,7 @@
 #include "scene/index.h"
 #include "scene/light.h"
 #include "scene/medium.h"
+#include "scene/tone_curve.h"
 #include "water/water.h"
 
 namespace nephroid {
@@ -23,7 +24,9 @@ struct Camera {
   vec3 target{0};
   vec3 up{0, 1, 0};
   float verticalFov = 40;  // degrees, whole angle
-  float exposure = 1;      // multiplies luminance before tone mapping
+  // Multiplies luminance before tone mapping; none: metered on the picture (render/metering.h).
+  std::optional<float> exposure;
+  ToneCurve tone = ToneCurve::neutral;
   bool operator==(const Camera&) const = default;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/image.h"
+#include "render/metering.h"
 #include "render/picture.h"
 #include "report/false_color.h"
 
@@ -66,7 +67,7 @@ void ReferenceWorker::refine(Job& job) {
     const Image image = estimate.image();
     view.passes = estimate.passes();
     view.noise = estimate.noise();
-    view.picture = pictureOf(image, job.scene.camera.exposure);
+    view.picture = pictureOf(image, toneMappingOf(job.scene.camera, image));
     std::shared_ptr<const Image> compared;
     {
       const std::lock_guard lock(job.sharing);

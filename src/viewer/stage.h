@@ -22,6 +22,7 @@ class Stage {
   // As Renderer::gather. Until there are enough samples for smooth edges, the picture stays the one of
   // `render`.
   std::vector<PassTime> gather(uint32_t samples);
+  float exposure() const { return renderer_->exposure(); }  // of the last frame
   uint32_t gathered() const { return renderer_->gathered(); }
   const gpu::Image& picture() const { return *picture_; }  // that is shown
   void resize(uvec2 size);                                 // the picture is black until the next `render`

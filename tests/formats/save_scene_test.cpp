@@ -78,7 +78,7 @@ void expectAlike(const Scene& a, const Scene& b) {
 Scene changed(Scene scene) {
   scene.camera.position += vec3(0.1f, 0.2f, -0.3f);
   scene.camera.verticalFov += 1.5f;
-  scene.camera.exposure *= 1.25f;
+  scene.camera.exposure = 1.25f;
   scene.camera.up = {0, 1, 0};
   scene.environment.ambient += vec3(0.25f, 0.5f, 1);
   for (Material& material : scene.materials) {

@@ -194,14 +194,14 @@ std::vector<vec3> lit(const SeenByRays& seen) {
 }
 
 // The part of the pixels that show casters whose light is off by more than 2 % and by more than a gray level.
-double offPart(const SeenByRays& seen, const SeenByRays& exact, float exposure) {
+double offPart(const SeenByRays& seen, const SeenByRays& exact, const ToneMapping& toneMapping) {
   const std::vector<vec3> pixels = lit(seen), exactPixels = lit(exact);
   double all = 0, off = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     if (exact.rest[i].a == 0) continue;
     ++all;
     const vec3 levels =
-        255.0f * glm::abs(displayed(pixels[i], exposure) - displayed(exactPixels[i], exposure));
+        255.0f * glm::abs(displayed(pixels[i], toneMapping) - displayed(exactPixels[i], toneMapping));
     const vec3 error = glm::abs(pixels[i] - exactPixels[i]);
     for (int c = 0; c < 3; ++c)
       if (error[c] > 0.02f * exactPixels[i][c] && levels[c] > 1) {
@@ -225,7 +225,7 @@ TEST(RaySight, ShowsWhatEveryPixelTracedShows) {
   for (const Case& one : kCases) {
     const Looked looked(one.make(), {320, 240});
     const SeenByRays seen = looked.seen(TreeSettings{}.leastWeight, true), exact = looked.seen(1e-5f, false);
-    const double off = offPart(seen, exact, 1);
+    const double off = offPart(seen, exact, {1, kToneNeutral});
     RecordProperty(std::string("off_percent_") + one.name, std::to_string(100 * off));
     EXPECT_LT(off, one.mostOff) << one.name;
     EXPECT_LE(seen.counts.traced, exact.counts.traced) << one.name;
@@ -238,7 +238,7 @@ TEST(RaySight, ShowsWhatEveryPixelTracedShowsInScenesOfTheRepository) {
     const auto file = std::filesystem::path(NEPHROID_SOURCE_DIR) / "scenes" / (std::string(name) + ".toml");
     const Looked looked(loadScene(file), {320, 240});
     const double off = offPart(looked.seen(TreeSettings{}.leastWeight, true), looked.seen(1e-4f, false),
-                               looked.scene.camera.exposure);
+                               {*looked.scene.camera.exposure, kToneNeutral});
     RecordProperty(std::string("off_percent_") + name, std::to_string(100 * off));
     EXPECT_LT(off, 0.005) << name;
   }

@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr ToneMapping kToneMapping{1, kToneNeutral};
+
 const LayerErrors& layerNamed(const Errors& errors, const std::string& name) {
   for (const LayerResult& layer : errors.layers)
     if (layer.name == name) return layer.errors;
@@ -28,7 +30,7 @@ const LayerErrors& layerNamed(const Errors& errors, const std::string& name) {
 
 TEST(Comparison, TellsEachLayerOfEachTechnique) {
   const SideBySide view = exampleSide(64, 48, "");
-  const std::vector<Errors> errors = errorsOf(view, 1);
+  const std::vector<Errors> errors = errorsOf(view, kToneMapping);
   ASSERT_EQ(errors.size(), 2u);
   EXPECT_NEAR(layerNamed(errors[0], "caustics").fluxRatio, 0.97, 0.002);
   EXPECT_EQ(layerNamed(errors[0], "direct").relativeRmse, 0);
@@ -44,7 +46,7 @@ TEST(Comparison, LooksAtWhatIsSeenDirectlyByItself) {
   view.techniques[0].image = view.reference.image;
   view.techniques[0].image.channel("caustics.R")[0] += 7;
   view.seesReceiver[0] = 0;
-  const Errors errors = errorsOf(view, 1)[0];
+  const Errors errors = errorsOf(view, kToneMapping)[0];
   EXPECT_GT(layerNamed(errors, "caustics").relativeRmse, 0);
   EXPECT_EQ(layerNamed(errors, "caustics seen directly").relativeRmse, 0);
 }
@@ -52,7 +54,7 @@ TEST(Comparison, LooksAtWhatIsSeenDirectlyByItself) {
 TEST(Comparison, RefusesImagesOfDifferentSizes) {
   SideBySide view = exampleSide(64, 48, "");
   view.techniques[1].image = exampleImage({48, 64});
-  EXPECT_THROW(errorsOf(view, 1), InputError);
+  EXPECT_THROW(errorsOf(view, kToneMapping), InputError);
 }
 
 // A ball of radius r at a distance d hides the directions within asin(r / d); pixels that its edge crosses

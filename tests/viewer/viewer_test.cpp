@@ -299,7 +299,7 @@ TEST(Histories, TakeTheCameraBack) {
   orbit(scene.camera, {0.5f, 0.1f});
   history.add(stateOf(scene));
   EXPECT_TRUE(history.isSaved());
-  scene.camera.exposure *= 2;
+  scene.camera.exposure = 2;
   history.add(stateOf(scene));
   EXPECT_FALSE(history.isSaved());
   history.undo();

@@ -4,7 +4,6 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 #include "render/samples/mean_data.h"
-#include "render/tone_mapping.h"
 
 layout(push_constant, scalar) uniform Constants {
   MeanConstants constants;
@@ -14,5 +13,6 @@ layout(location = 0) out vec4 picture;
 
 void main() {
   const vec3 sum = texelFetch(luminance, ivec2(gl_FragCoord.xy), 0).rgb;
-  picture = vec4(displayed(constants.part * sum, constants.exposure), 1);
+  const vec3 shown = displayed(constants.part * sum, constants.toneMapping);
+  picture = vec4(levelsOf(shown, uint(gl_FragCoord.x), uint(gl_FragCoord.y)) / 255, 1);
 }

@@ -2,13 +2,13 @@
 #ifndef NEPHROID_RENDER_SAMPLES_MEAN_DATA_H
 #define NEPHROID_RENDER_SAMPLES_MEAN_DATA_H
 
-#include "core/shared_language.h"
+#include "render/tone_mapping.h"
 
 SHARED_BEGIN
 
 struct MeanConstants {
   float part;  // 1 over the number of samples
-  float exposure;
+  ToneMapping toneMapping;
 };
 
 SHARED_END

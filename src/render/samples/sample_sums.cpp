@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/color.h"
 #include "gpu/transfer.h"
 #include "render/samples/mean_data.h"
 #include "shaders/render/samples/mean_frag.h"
@@ -45,9 +46,10 @@ std::vector<const gpu::Image*> SampleSums::add() {
   return images;
 }
 
-void SampleSums::recordMean(gpu::CommandList& commands, float exposure, const gpu::Image& picture) const {
+void SampleSums::recordMean(gpu::CommandList& commands, const ToneMapping& toneMapping,
+                            const gpu::Image& picture) const {
   commands.render({.colors = {{&picture, 0, std::nullopt}}}, [&] {
-    commands.draw(mean_, 3, 1, MeanConstants{1 / float(count_), exposure}, {{"luminance", sums_.front()}});
+    commands.draw(mean_, 3, 1, MeanConstants{1 / float(count_), toneMapping}, {{"luminance", sums_.front()}});
   });
 }
 
@@ -62,6 +64,15 @@ void SampleSums::read(Image& layers) const {
       for (std::size_t i = 0; i < texels.size(); ++i) values[i] = part * texels[i][c];
     }
   }
+}
+
+std::vector<float> SampleSums::luminances() const {
+  const float part = 1 / float(count_);
+  const auto texels = gpu::download<vec4>(device_, sums_.front());
+  std::vector<float> all;
+  all.reserve(texels.size());
+  for (const vec4& texel : texels) all.push_back(part * luminanceOf(vec3(texel)));
+  return all;
 }
 
 }  // namespace nephroid

@@ -8,6 +8,7 @@
 #include "gpu/command_list.h"
 #include "gpu/program.h"
 #include "gpu/resources.h"
+#include "render/tone_mapping.h"
 
 namespace nephroid {
 
@@ -28,10 +29,14 @@ class SampleSums {
   std::vector<const gpu::Image*> add();
 
   // Writes the picture of the mean: exposed, tone-mapped, sRGB.
-  void recordMean(gpu::CommandList& commands, float exposure, const gpu::Image& picture) const;
+  void recordMean(gpu::CommandList& commands, const ToneMapping& toneMapping,
+                  const gpu::Image& picture) const;
 
   // Writes the mean to the layers' R,G,B, direct.R,G,B, caustics.R,G,B and shafts.R,G,B.
   void read(Image& layers) const;
+
+  // The mean luminance (nit) of each pixel.
+  std::vector<float> luminances() const;
 
  private:
   gpu::Device& device_;

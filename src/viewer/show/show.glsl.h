@@ -5,7 +5,7 @@
 vec3 colorOf(vec4 value) {
   switch (constants.meaning) {
     case kShowLight:
-      return displayed(value.rgb, constants.scale);
+      return displayed(value.rgb, ToneMapping(constants.scale, kToneNeutral));
     case kShowDirection:
       return dot(value.rgb, value.rgb) > 0 ? 0.5 + 0.5 * value.rgb : vec3(0);
     case kShowPlace:
