@@ -167,6 +167,32 @@ TEST(SavedScene, AddsKeysAndSectionsThatWereNotThere) {
   expectAlike(sceneOf(saved.text), after);
 }
 
+// By the key that the file has.
+TEST(SavedScene, KeepsHowPicturesAreShown) {
+  const std::string camera = "[camera]\nposition = [0, 0, 1]\n";
+  const auto saved = [](const std::string& text, std::optional<float> exposure, ToneCurve tone) {
+    const Scene before = sceneOf(text);
+    Scene after = before;
+    after.camera.exposure = exposure;
+    after.camera.tone = tone;
+    const std::string written = savedScene(text, before, after).text;
+    const Camera read = sceneOf(written).camera;
+    EXPECT_EQ(read.exposure.has_value(), exposure.has_value()) << written;
+    if (exposure) {
+      EXPECT_NEAR(*read.exposure, *exposure, 1e-5f * *exposure) << written;
+    }
+    EXPECT_EQ(read.tone, tone) << written;
+    return written;
+  };
+  EXPECT_NE(saved(camera, 0.5f, ToneCurve::agx).find("exposure = 0.5\n"), std::string::npos);
+  EXPECT_NE(saved(camera + "exposure = 2\n", {}, ToneCurve::neutral).find("exposure = \"auto\""),
+            std::string::npos);
+  EXPECT_EQ(saved(camera + "ev100 = 10\n", 0.01f, ToneCurve::neutral).find("exposure"), std::string::npos);
+  EXPECT_EQ(saved(camera + "ev100 = 10\n", {}, ToneCurve::aces).find("ev100"), std::string::npos);
+  EXPECT_EQ(saved(camera + "exposure = \"auto\"\n", {}, ToneCurve::neutral),
+            camera + "exposure = \"auto\"\n");
+}
+
 TEST(SavedScene, LampsKeepTheirSize) {
   const std::string text =
       "[[light]]\ntype = \"point\"\nposition = [0, 3, 0]\nintensity = 1\n[[light]]\ntype = \"directional\"\n"

@@ -80,6 +80,7 @@ resolution = [32, 16]
   EXPECT_EQ(scene.camera.position, vec3(0, 1.5f, 3));
   EXPECT_EQ(scene.camera.verticalFov, 35);
   EXPECT_EQ(scene.camera.exposure, 2);
+  EXPECT_EQ(scene.camera.tone, ToneCurve::neutral);
   EXPECT_EQ(scene.environment.ambient, vec3(0.5f));
   EXPECT_EQ(scene.environment.background, vec3(0.1f, 0.2f, 0.3f));
   ASSERT_EQ(scene.materials.size(), 2u);
@@ -107,6 +108,21 @@ resolution = [32, 16]
   ASSERT_EQ(scene.sensors.size(), 1u);
   EXPECT_EQ(scene.sensors[0].resolution, uvec2(32, 16));
   EXPECT_EQ(scene.sensors[0].normal(), vec3(0, 1, 0));
+}
+
+TEST_F(SceneFile, ReadsHowPicturesAreShown) {
+  const std::string camera = "[camera]\nposition = [0, 0, 1]\n";
+  EXPECT_FALSE(load(camera).camera.exposure);
+  EXPECT_FALSE(load(kMaterials).camera.exposure);
+  EXPECT_FALSE(load(camera + "exposure = \"auto\"\n").camera.exposure);
+  EXPECT_FLOAT_EQ(*load(camera + "ev100 = 15\n").camera.exposure, float(1 / (1.2 * 32768)));
+  EXPECT_EQ(load(camera + "tone = \"agx\"\n").camera.tone, ToneCurve::agx);
+  expectError(camera + "exposure = \"automatic\"\n", {"scene.toml:3", "\"exposure\"", "\"auto\""});
+  expectError(camera + "exposure = 0\n", {"scene.toml:3", "\"exposure\"", "1e-12"});
+  expectError(camera + "exposure = [1]\n", {"scene.toml:3", "\"exposure\""});
+  expectError(camera + "ev100 = 100\n", {"scene.toml:3", "\"ev100\"", "39"});
+  expectError(camera + "ev100 = 3\nexposure = 1\n", {"scene.toml:3", "\"ev100\"", "\"exposure\""});
+  expectError(camera + "tone = \"agxx\"\n", {"scene.toml:3", "\"tone\"", "\"agx\""});
 }
 
 TEST_F(SceneFile, LampsHaveASize) {

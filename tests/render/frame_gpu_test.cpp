@@ -4,6 +4,7 @@
 
 #include "core/image_io.h"
 #include "lights/emitters.h"
+#include "render/metering.h"
 #include "render/picture.h"
 #include "support/drawing.h"
 #include "support/gpu_fixture.h"
@@ -407,14 +408,39 @@ TEST_F(Frame, APictureIsExposedLuminanceInSrgb) {
 // One rounding apart: the device may round its powers and fractions another way.
 TEST_F(Frame, APictureOfItsLayersIsItsPicture) {
   Scene scene = floorScene();
-  scene.camera.exposure = 0.1f;
   scene.lights.push_back(pointLight({0, 1.5f, 0}, vec3(30, 12, 3)));
-  const ByteImage picture = pictureOf(layersOf(scene), {0.1f, kToneNeutral});
-  ASSERT_EQ(picture.bytes.size(), picture_.bytes.size());
-  for (std::size_t i = 0; i < picture.bytes.size(); ++i)
-    EXPECT_NEAR(picture.bytes[i], picture_.bytes[i], 1) << i;
-  EXPECT_NE(*std::min_element(picture.bytes.begin(), picture.bytes.end()),
-            *std::max_element(picture.bytes.begin(), picture.bytes.end()));
+  for (const ToneCurve tone : {ToneCurve::neutral, ToneCurve::agx, ToneCurve::aces, ToneCurve::linear}) {
+    scene.camera.tone = tone;
+    const Image layers = layersOf(scene);
+    const ByteImage picture = pictureOf(layers, toneMappingOf(scene.camera, layers));
+    ASSERT_EQ(picture.bytes.size(), picture_.bytes.size());
+    for (std::size_t i = 0; i < picture.bytes.size(); ++i)
+      EXPECT_NEAR(picture.bytes[i], picture_.bytes[i], 1) << i;
+    EXPECT_NE(*std::min_element(picture.bytes.begin(), picture.bytes.end()),
+              *std::max_element(picture.bytes.begin(), picture.bytes.end()));
+  }
+}
+
+// On the middle of each pixel, so that how many samples there are makes no difference, and the light is the
+// same as for an exposure that is given.
+TEST_F(Frame, IsMeteredOnTheSameForAnyNumberOfSamples) {
+  Scene scene = floorScene();
+  scene.lights.push_back(pointLight({0, 1.5f, 0}, vec3(30, 12, 3)));
+  const Image one = layersOf(scene);
+  const float exposure = meteredExposure(one);
+  for (const uint32_t samples : {1u, 3u}) {
+    const RenderSettings settings{.size = kSize, .shadowMapSize = 1024, .samples = samples};
+    Drawing metered(device(), scene, settingsOf("none"), settings);
+    const Image layers = metered.layers(scene);
+    EXPECT_FLOAT_EQ(metered.renderer.exposure(), exposure);
+    Scene given = scene;
+    given.camera.exposure = exposure;
+    Drawing other(device(), given, settingsOf("none"), settings);
+    const Image givenLayers = other.layers(given);
+    for (std::size_t i = 0; i < layers.channels.size(); ++i)
+      EXPECT_EQ(layers.channels[i].values, givenLayers.channels[i].values) << layers.channels[i].name;
+    EXPECT_EQ(metered.renderer.picture().bytes, other.renderer.picture().bytes);
+  }
 }
 
 TEST_F(Frame, TheSameSceneGivesTheSameBytesAndAMovedLightOthers) {

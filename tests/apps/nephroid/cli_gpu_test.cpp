@@ -82,6 +82,25 @@ TEST_F(RenderCommand, DrawsSixteenSamplesOrOneOfARepeatedFrame) {
   EXPECT_EQ(samplesIn(), "16");
 }
 
+// A lamp that grows a hundredfold: the film has the exposure of its first frame, a picture its own.
+TEST_F(RenderCommand, AFilmKeepsTheExposureOfItsFirstFrame) {
+  write("scene.toml", std::string(kScene) +
+                          "[[light]]\ntype = \"point\"\nposition = [0, 2, 0]\nintensity = 10\n"
+                          "dimmer = [[0, 0.01], [1, 1]]\n");
+  const auto exposureOf = [&](const char* name) {
+    for (const ImageAttribute& each : readExrAttributes(folder / name))
+      if (each.name == "exposure") return std::get<float>(each.value);
+    return 0.0f;
+  };
+  ASSERT_EQ(render({"-o", at("film.exr"), "--frames", "0:1", "--fps", "1"}).status, 0);
+  ASSERT_EQ(render({"-o", at("last.exr"), "--time", "1"}).status, 0);
+  EXPECT_GT(exposureOf("film.0000.exr"), 0);
+  EXPECT_EQ(exposureOf("film.0001.exr"), exposureOf("film.0000.exr"));
+  EXPECT_LT(exposureOf("last.exr"), 0.7f * exposureOf("film.0000.exr"));
+  ASSERT_EQ(render({"-o", at("given.exr"), "--exposure", "0.25"}).status, 0);
+  EXPECT_EQ(exposureOf("given.exr"), 0.25f);
+}
+
 TEST_F(RenderCommand, NumbersItsFrames) {
   ASSERT_EQ(render({"-o", at("a.png"), "--frames", "3:4"}).status, 0);
   EXPECT_TRUE(std::filesystem::exists(folder / "a.0003.png"));

@@ -211,6 +211,12 @@ TEST_F(SceneCommand, WrongInputLeavesNothingBehind) {
   expectWrong(measure({"--sensor", "floor", "--time", "later"}), "--time");
   expectWrong(measure({"--sensor", "floor", "--time", "nan"}), "--time");
   expectWrong(measure({"--sensor", "floor", "--planse", "4"}), "did you mean '--planes'?");
+  const auto render = [&](const char* option, const char* value) {
+    return std::vector<std::string>{"render", at("scene.toml"), "-o", at("a.png"), option, value};
+  };
+  for (const char* exposure : {"automatic", "0", "-1", "nan", "1e20"})
+    expectWrong(render("--exposure", exposure), "neither auto nor a number from 1e-12 to 1e12");
+  expectWrong(render("--tone", "agxx"), "did you mean 'agx'?");
   for (const char* samples : {"0", "4097", "many"})
     expectWrong({"render", at("scene.toml"), "-o", at("a.png"), "--samples", samples}, "1 to 4096");
   expectWrong(measure({}), "--sensor");

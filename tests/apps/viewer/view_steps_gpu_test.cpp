@@ -116,6 +116,36 @@ TEST_F(ViewSteps, OpensEachSceneAndItsPictureFollowsTheLight) {
   EXPECT_GT(opened, 30u);
 }
 
+// A film in a window does not flicker: what is metered stays, whatever changes, until it is metered again.
+TEST_F(ViewSteps, MetersWhenASceneIsOpenedAndWhenItIsAsked) {
+  const std::string text = std::regex_replace(std::string(kBallInView), std::regex("exposure = 0.22\n"), "");
+  const fs::path file = written("ball.toml", text);
+  state().settings.technique.technique = "none";
+  ASSERT_TRUE(opens(file));
+  const std::optional<float> first = state().metered;
+  ASSERT_TRUE(first);
+  EXPECT_LE(largestDifference(viewer().picture(), rendered(file)), 1u);
+  state().scene.lights[0].intensity *= 30.0f;
+  stepNow(viewer());
+  EXPECT_EQ(state().metered, first);
+  const ByteImage bright = viewer().picture();
+  hands().key(GLFW_KEY_G);
+  ASSERT_TRUE(stepUntil([&] { return state().metered && state().metered != first; }));
+  EXPECT_LT(*state().metered, 0.5f * *first);
+  EXPECT_GT(largestDifference(viewer().picture(), bright), 20u);
+  EXPECT_FALSE(state().scene.camera.exposure);
+  // Given, it is the camera's own, and taken back it is metered anew.
+  state().scene.camera.exposure = 0.22f;
+  stepNow(viewer());
+  EXPECT_FALSE(state().metered);
+  ASSERT_TRUE(viewer().save());
+  EXPECT_LE(largestDifference(viewer().picture(), rendered(file)), 1u);
+  // Another scene is metered by itself.
+  ASSERT_TRUE(opens(written("dark.toml", std::regex_replace(text, std::regex("= 20|= 1.2"), "= 0.01"))));
+  ASSERT_TRUE(state().metered);
+  EXPECT_GT(*state().metered, 3 * *first);
+}
+
 // At rest samples come one in each frame until all are there, and none is kept when something changes.
 TEST_F(ViewSteps, GathersSamplesAtRestAndForgetsThemWhenSomethingChanges) {
   const fs::path file = written("ball.toml", kBallInView);
