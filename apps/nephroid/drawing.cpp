@@ -38,6 +38,7 @@ std::vector<FrameTime> drawFrame(const FrameRequest& request, gpu::Device& devic
                                           transport.traced(), request.settings.technique.transport.paths))
       addLine(stats.notes, *note);
   stats.memoryBytes = std::max(stats.memoryBytes, device.memoryBytes());
+  stats.exposure = double(renderer.exposure());
   renderer.tellSight(stats);
   use(renderer);
   return times;

@@ -154,9 +154,10 @@ void addRepeat(CLI::App& command, uint32_t& repeat) {
 
 void addStats(CLI::App& command, fs::path& stats) {
   command
-      .add_option("--stats", stats,
-                  "Where to write the figures of the run: device, technique, source, error, left_out, "
-                  "shortfall, notes, prepare_ms, frame_ms, passes, counts, memory_bytes")
+      .add_option(
+          "--stats", stats,
+          "Where to write the figures of the run: device, technique, source, error, left_out, exposure, "
+          "shortfall, notes, prepare_ms, frame_ms, passes, counts, memory_bytes")
       ->type_name("FILE.json");
 }
 

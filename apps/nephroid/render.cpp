@@ -117,6 +117,7 @@ void renderReference(const RenderOptions& options, const std::vector<FrameJob>& 
     stats.prepareMilliseconds += preparing.milliseconds();
     refineToFile(image, {common, options.reference, settings, stop, scene, "nit", ""}, progress, stats);
     film.keep(toneMappingOf(scene.camera, image.image()).exposure);
+    stats.exposure = double(*film.tone.exposure);
   }
   reportStats(options.stats, stats);
 }

@@ -287,6 +287,7 @@ void Viewer::writeStatsOfFrames() const {
   stats.frameMilliseconds = median(frameMilliseconds_);
   stats.passes = state_.times.passes();
   stats.memoryBytes = graphics_->device().memoryBytes();
+  stats.exposure = double(graphics_->stage->exposure());
   setCount(stats, "frames", frameMilliseconds_.size());
   setCount(stats, "width", drawn_.size.x);
   setCount(stats, "height", drawn_.size.y);

@@ -37,6 +37,7 @@ std::string statsJson(const Stats& stats) {
                          {"settings", settings},
                          {"error", orNull(stats.error)},
                          {"left_out", orNull(stats.leftOut)},
+                         {"exposure", orNull(stats.exposure)},
                          {"shortfall", stats.shortfall},
                          {"notes", notes},
                          {"prepare_ms", stats.prepareMilliseconds},

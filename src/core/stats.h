@@ -43,6 +43,7 @@ struct Stats {
   // Of a technique that works to an error that is asked for: what it claims to have reached, and the part of
   // the light that it left out.
   std::optional<double> error, leftOut;
+  std::optional<double> exposure;  // of pictures: what multiplied their luminance (nit)
   std::string shortfall;  // a sentence where the error that was asked for is not reached; otherwise empty
   std::optional<LightBudget> budget;  // of a technique that knows it
   std::vector<std::string> warnings;  // what was mended in the scene, or cannot be right
@@ -56,9 +57,10 @@ void addLine(std::vector<std::string>& lines, const std::string& line);
 void setCount(Stats& stats, const std::string& name, uint64_t count);
 
 // {"schema": "nephroid stats 2", "device", "technique", "source", "settings": {...}, "error", "left_out",
-// "shortfall", "notes": [...], "prepare_ms", "frame_ms", "passes": [{"name", "ms", "samples"}], "counts":
+// "exposure", "shortfall", "notes": [...], "prepare_ms", "frame_ms", "passes": [{"name", "ms", "samples"}],
+// "counts":
 // {...}, "memory_bytes"}; the notes begin with the warnings; error and left_out are null where the technique
-// knows none.
+// knows none, exposure where there is no picture.
 std::string statsJson(const Stats& stats);
 
 // The middle value, or the mean of the middle two where there is an even number. 0 for an empty list.
