@@ -148,6 +148,7 @@ TEST(Stats, AreTheDocumentedFields) {
                     1024,
                     0.02,
                     {},
+                    0.25,
                     "few beams",
                     {},
                     {"open"},
@@ -163,9 +164,10 @@ TEST(Stats, AreTheDocumentedFields) {
   EXPECT_EQ(json["schema"], "nephroid stats 2");
   EXPECT_EQ(json["error"], 0.02);
   EXPECT_TRUE(json["left_out"].is_null());
+  EXPECT_EQ(json["exposure"], 0.25);
   EXPECT_EQ(json["shortfall"], "few beams");
   EXPECT_EQ(json["notes"], (nlohmann::json{"open", "dark"}));
-  EXPECT_EQ(json.size(), 14u);
+  EXPECT_EQ(json.size(), 15u);
 }
 
 TEST(Stats, MedianIsTheMiddle) {
