@@ -98,16 +98,17 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       hasTurbidWater_(hasTurbidWater(transport.scene())),
       gpuScene_(device, transport.scene()),
       isByRays_(settings.sight.method == SightMethod::rays && !technique.traits().coversSquares),
-      programs_(
-          createFramePrograms(device, {hasEmission(transport.scene()), transport.scene().medium.has_value(),
-                                       hasTurbidWater_, isByRays_})),
+      luminance_{hasEmission(transport.scene()), transport.scene().medium.has_value(), hasTurbidWater_,
+                 isByRays_},
+      tone_(transport.scene().camera.tone),
+      programs_(createFramePrograms(device, luminance_, tone_)),
       images_(createFrameImages(device, settings.size.x, settings.size.y)),
       sight_(device, settings.sight),
       raySight_(device, hasTurbidWater_),
       waysInWater_(device, isByRays_),
       directLight_(device, transport.scene(), shadowMapSizeOf(settings)),
       shafts_(device, transport.scene(), settings.size, settings.shafts),
-      sums_(device) {
+      sums_(device, tone_) {
   sums_.resize(settings.size);
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
   technique_.reserve(settings.size);
@@ -185,7 +186,7 @@ void Renderer::addSample(const Remade& remade, std::vector<PassTime>& passes) {
 
 void Renderer::drawMean(std::vector<PassTime>& passes) {
   const std::vector<PassTime> last = device_.submitAndWait([&](gpu::CommandList& commands) {
-    commands.pass("mean of samples", [&] { sums_.recordMean(commands, toneMapping_, images_.picture); });
+    commands.pass("mean of samples", [&] { sums_.recordMean(commands, exposure_, images_.picture); });
   });
   passes.insert(passes.end(), last.begin(), last.end());
 }
@@ -194,7 +195,7 @@ void Renderer::drawMean(std::vector<PassTime>& passes) {
 void Renderer::meter(std::vector<PassTime>& passes) {
   const std::vector<PassTime> some = addLayers();
   passes.insert(passes.end(), some.begin(), some.end());
-  onHost(passes, "metering", [&] { toneMapping_.exposure = meteredExposure(sums_.luminances()); });
+  onHost(passes, "metering", [&] { exposure_ = meteredExposure(sums_.luminances()); });
   sums_.begin();
   arePlanesInAirChosen_ = false;
 }
@@ -230,7 +231,8 @@ void Renderer::place(const Scene& scene) {
   middleView_ = viewOf(scene.camera, settings_.size);
   shafts_.update(scene, middleView_);
   environment_ = scene.environment;
-  toneMapping_ = toneMappingOf(scene.camera.exposure.value_or(1.0f), scene.camera.tone);
+  exposure_ = scene.camera.exposure.value_or(1.0f);
+  setTone(scene.camera.tone);
   gpuScene_.place(scene);
   surfaces_.clear();
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {
@@ -245,6 +247,13 @@ void Renderer::place(const Scene& scene) {
     surface.constants.material = object.material;
     surfaces_.push_back(surface);
   }
+}
+
+void Renderer::setTone(ToneCurve tone) {
+  if (tone == tone_) return;
+  programs_.picture = createPicturePrograms(device_, luminance_, tone);
+  sums_.setTone(tone);
+  tone_ = tone;
 }
 
 void Renderer::ensureImages() {
@@ -357,7 +366,7 @@ void Renderer::composite(gpu::CommandList& commands, const std::map<CasterTraits
     commands.render(rendered, [&] {
       commands.draw(programs.at(traits), 3, 1,
                     CompositeConstants{gpuScene_.materials(), environment_.ambient, environment_.background,
-                                       toneMapping_, waysInWater_.extinctionAtEye()},
+                                       exposure_, waysInWater_.extinctionAtEye()},
                     {{"normal", ofEach(&SeenImages::normal)},
                      {"albedo", ofEach(&SeenImages::albedo)},
                      {"transmittance", ofEach(&SeenImages::transmittance)},

@@ -8,6 +8,7 @@
 #include "render/frame_data.h"
 #include "render/frame_resources.h"
 #include "render/last_scene.h"
+#include "render/metering.h"
 #include "render/samples/sample_sums.h"
 #include "render/settings.h"
 #include "render/sight/rays/ray_sight.h"
@@ -49,8 +50,8 @@ class Renderer {
   std::vector<PassTime> gather(uint32_t samples);
   // What multiplied the luminance of the last frame's picture: the camera's exposure, or where it has none
   // the one that was metered, on one sample in the middle of each pixel, however many are drawn.
-  float exposure() const { return toneMapping_.exposure; }
-  const ToneMapping& toneMapping() const { return toneMapping_; }  // with the camera's curve
+  float exposure() const { return exposure_; }
+  ToneMapping toneMapping() const { return toneMappingOf(exposure_, tone_); }  // with the camera's curve
   uint32_t gathered() const { return sums_.count(); }  // samples in the picture; 0: the one of `render`
 
   // The picture of the last frame, of the mean of its samples: exposed, tone-mapped, sRGB, 3 components.
@@ -96,6 +97,7 @@ class Renderer {
   void composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
                  const std::vector<const gpu::Image*>& targets, const std::optional<vec4>& clear);
   std::vector<PassTime> addLayers();
+  void setTone(ToneCurve tone);
   void ensureImages();
 
   gpu::Device& device_;
@@ -105,6 +107,8 @@ class Renderer {
   bool hasTurbidWater_ = false;  // water that absorbs or scatters
   GpuScene gpuScene_;
   bool isByRays_ = false;  // the view through casters; otherwise by slices
+  LuminanceTraits luminance_;
+  ToneCurve tone_ = ToneCurve::neutral;  // of the programs
   FramePrograms programs_;
   FrameImages images_;
   SightPass sight_;
@@ -123,7 +127,7 @@ class Renderer {
   View middleView_{}, view_{};     // of the pixels' middles, and of the sample
   std::vector<Surface> surfaces_;  // of the objects
   Environment environment_;
-  ToneMapping toneMapping_{1, kToneNeutral};
+  float exposure_ = 1;
   std::vector<MeshExtent> extents_;  // of the meshes
 };
 

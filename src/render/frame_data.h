@@ -6,7 +6,6 @@
 
 #include "lights/emitter.h"
 #include "render/air/air_data.h"
-#include "render/tone_mapping.h"
 
 SHARED_BEGIN
 
@@ -63,7 +62,7 @@ struct CompositeConstants {
   BUFFER_ADDRESS(SceneMaterials) materials;
   vec3 ambient;     // lux
   vec3 background;  // nit
-  ToneMapping toneMapping;
+  float exposure;
   vec3 extinctionAtEye;  // 1/m, of the water that the eye is in
 };
 

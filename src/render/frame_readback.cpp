@@ -40,7 +40,7 @@ ReceiverPoints Renderer::seenPoints() const {
 }
 
 std::vector<PassOutput> Renderer::outputs() const {
-  const float exposure = toneMapping_.exposure / glm::pi<float>();  // of lux, as white paper shows them
+  const float exposure = exposure_ / glm::pi<float>();  // of lux, as white paper shows them
   const SeenImages& seen = images_.seen[kSeen];
   std::vector<PassOutput> all;
   for (const gpu::Image* map : directLight_.shadowMaps())
@@ -60,8 +60,8 @@ std::vector<PassOutput> Renderer::outputs() const {
   all.insert(all.end(), {{"direct light", "lux", &seen.directLux, kShowLight, exposure},
                          {"caustics", "lux", &seen.causticsLux, kShowLight, exposure}});
   if (hasTurbidWater_)
-    all.push_back({"light in water", "luminance", &images_.scattered, kShowLight, toneMapping_.exposure});
-  if (shafts_) all.push_back({"shafts", "luminance", &shafts_.image(), kShowLight, toneMapping_.exposure});
+    all.push_back({"light in water", "luminance", &images_.scattered, kShowLight, exposure_});
+  if (shafts_) all.push_back({"shafts", "luminance", &shafts_.image(), kShowLight, exposure_});
   all.push_back({"composite", "picture", &images_.picture, kShowPicture});
   return all;
 }

@@ -13,6 +13,25 @@ constexpr VkFormat kFrameFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kBytes = VK_FORMAT_R8G8B8A8_UNORM;
 
+// Of the casters that may be in sight.
+std::vector<CasterTraits> traitsOf(const LuminanceTraits& luminance) {
+  std::vector<CasterTraits> all;
+  for (const CasterTraits traits :
+       {CasterTraits{false, false, false, false}, CasterTraits{true, false, false, false},
+        CasterTraits{true, true, false, false}, CasterTraits{true, true, true, false},
+        CasterTraits{true, false, false, true}})
+    if (!traits.areSeen || traits.byRays == luminance.isSeenByRays) all.push_back(traits);
+  return all;
+}
+
+std::vector<gpu::SpecializationConstant> choicesFor(const CasterTraits& traits,
+                                                    const LuminanceTraits& luminance) {
+  return {{"kHasEmission", luminance.hasEmission}, {"kSeesCasters", traits.areSeen},
+          {"kReflects", traits.reflect},           {"kDisperses", traits.disperse},
+          {"kHasAir", luminance.hasAir},           {"kHasTurbidWater", luminance.hasTurbidWater},
+          {"kSeenByRays", traits.byRays}};
+}
+
 }  // namespace
 
 SeenImages createSeenImages(gpu::Device& device, uint32_t width, uint32_t height) {
@@ -35,7 +54,7 @@ FrameImages createFrameImages(gpu::Device& device, uint32_t width, uint32_t heig
   return images;
 }
 
-FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& luminance) {
+FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& luminance, ToneCurve tone) {
   gpu::RasterState receiver;
   receiver.colors = {{kFrameFormat}, {kFrameFormat}, {kFrameFormat}};
   receiver.depthFormat = kDepth;
@@ -48,22 +67,24 @@ FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& lu
   programs.texturedReceiver =
       gpu::createRasterProgram(device, "textured receiver", shaders::render_surface_vert,
                                shaders::render_receiver_frag, receiver, {{"kHasTexture", VK_TRUE}});
-  for (const CasterTraits traits :
-       {CasterTraits{false, false, false, false}, CasterTraits{true, false, false, false},
-        CasterTraits{true, true, false, false}, CasterTraits{true, true, true, false},
-        CasterTraits{true, false, false, true}}) {
-    if (traits.areSeen && traits.byRays != luminance.isSeenByRays) continue;
-    const std::vector<gpu::SpecializationConstant> choices{
-        {"kHasEmission", luminance.hasEmission}, {"kSeesCasters", traits.areSeen},
-        {"kReflects", traits.reflect},           {"kDisperses", traits.disperse},
-        {"kHasAir", luminance.hasAir},           {"kHasTurbidWater", luminance.hasTurbidWater},
-        {"kSeenByRays", traits.byRays}};
-    programs.picture[traits] =
-        gpu::createRasterProgram(device, "picture", shaders::techniques_whole_picture_vert,
-                                 shaders::render_picture_frag, {.colors = {{kBytes}}}, choices);
+  programs.picture = createPicturePrograms(device, luminance, tone);
+  for (const CasterTraits& traits : traitsOf(luminance))
     programs.layers[traits] = gpu::createRasterProgram(
         device, "layers", shaders::techniques_whole_picture_vert, shaders::render_layers_frag,
-        {.colors = std::vector<gpu::ColorTarget>(4, {kFrameFormat, gpu::Blend::add})}, choices);
+        {.colors = std::vector<gpu::ColorTarget>(4, {kFrameFormat, gpu::Blend::add})},
+        choicesFor(traits, luminance));
+  return programs;
+}
+
+std::map<CasterTraits, gpu::Program> createPicturePrograms(gpu::Device& device,
+                                                           const LuminanceTraits& luminance, ToneCurve tone) {
+  std::map<CasterTraits, gpu::Program> programs;
+  for (const CasterTraits& traits : traitsOf(luminance)) {
+    std::vector<gpu::SpecializationConstant> choices = choicesFor(traits, luminance);
+    choices.push_back({"kToneCurve", uint32_t(tone)});
+    programs[traits] =
+        gpu::createRasterProgram(device, "picture", shaders::techniques_whole_picture_vert,
+                                 shaders::render_picture_frag, {.colors = {{kBytes}}}, choices);
   }
   return programs;
 }

@@ -8,6 +8,7 @@
 #include "gpu/program.h"
 #include "gpu/resources.h"
 #include "render/frame_data.h"
+#include "scene/tone_curve.h"
 
 namespace nephroid {
 
@@ -66,6 +67,9 @@ struct LuminanceTraits {
   bool isSeenByRays = false;    // what casters show
 };
 
-FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& luminance);
+FramePrograms createFramePrograms(gpu::Device& device, const LuminanceTraits& luminance, ToneCurve tone);
+// Those of pictures alone, for another curve.
+std::map<CasterTraits, gpu::Program> createPicturePrograms(gpu::Device& device,
+                                                           const LuminanceTraits& luminance, ToneCurve tone);
 
 }  // namespace nephroid

@@ -4,6 +4,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 #include "render/samples/mean_data.h"
+#include "render/shown_picture.glsl.h"
 
 layout(push_constant, scalar) uniform Constants {
   MeanConstants constants;
@@ -13,6 +14,5 @@ layout(location = 0) out vec4 picture;
 
 void main() {
   const vec3 sum = texelFetch(luminance, ivec2(gl_FragCoord.xy), 0).rgb;
-  const vec3 shown = displayed(constants.part * sum, constants.toneMapping);
-  picture = vec4(levelsOf(shown, uint(gl_FragCoord.x), uint(gl_FragCoord.y)) / 255, 1);
+  picture = pictureOf(constants.part * sum, constants.exposure, gl_FragCoord);
 }

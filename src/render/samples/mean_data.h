@@ -2,13 +2,13 @@
 #ifndef NEPHROID_RENDER_SAMPLES_MEAN_DATA_H
 #define NEPHROID_RENDER_SAMPLES_MEAN_DATA_H
 
-#include "render/tone_mapping.h"
+#include "core/shared_language.h"
 
 SHARED_BEGIN
 
 struct MeanConstants {
   float part;  // 1 over the number of samples
-  ToneMapping toneMapping;
+  float exposure;
 };
 
 SHARED_END

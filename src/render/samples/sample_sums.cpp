@@ -24,11 +24,15 @@ constexpr std::array<Layer, 4> kLayers{{{"luminance", ""},
 
 }  // namespace
 
-SampleSums::SampleSums(gpu::Device& device)
-    : device_(device),
-      mean_(gpu::createRasterProgram(device, "mean of samples", shaders::techniques_whole_picture_vert,
-                                     shaders::render_samples_mean_frag,
-                                     {.colors = {{VK_FORMAT_R8G8B8A8_UNORM}}})) {}
+SampleSums::SampleSums(gpu::Device& device, ToneCurve tone) : device_(device) {
+  setTone(tone);
+}
+
+void SampleSums::setTone(ToneCurve tone) {
+  mean_ = gpu::createRasterProgram(
+      device_, "mean of samples", shaders::techniques_whole_picture_vert, shaders::render_samples_mean_frag,
+      {.colors = {{VK_FORMAT_R8G8B8A8_UNORM}}}, {{"kToneCurve", uint32_t(tone)}});
+}
 
 void SampleSums::resize(uvec2 size) {
   size_ = size;
@@ -46,10 +50,9 @@ std::vector<const gpu::Image*> SampleSums::add() {
   return images;
 }
 
-void SampleSums::recordMean(gpu::CommandList& commands, const ToneMapping& toneMapping,
-                            const gpu::Image& picture) const {
+void SampleSums::recordMean(gpu::CommandList& commands, float exposure, const gpu::Image& picture) const {
   commands.render({.colors = {{&picture, 0, std::nullopt}}}, [&] {
-    commands.draw(mean_, 3, 1, MeanConstants{1 / float(count_), toneMapping}, {{"luminance", sums_.front()}});
+    commands.draw(mean_, 3, 1, MeanConstants{1 / float(count_), exposure}, {{"luminance", sums_.front()}});
   });
 }
 

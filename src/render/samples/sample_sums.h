@@ -8,14 +8,17 @@
 #include "gpu/command_list.h"
 #include "gpu/program.h"
 #include "gpu/resources.h"
-#include "render/tone_mapping.h"
+#include "scene/tone_curve.h"
 
 namespace nephroid {
 
 class SampleSums {
  public:
   // The device must outlive it.
-  explicit SampleSums(gpu::Device& device);
+  SampleSums(gpu::Device& device, ToneCurve tone);
+
+  // Sets another curve for the following pictures.
+  void setTone(ToneCurve tone);
 
   // Sets another size (pixels) for the following pictures. Nothing is summed then.
   void resize(uvec2 size);
@@ -29,8 +32,7 @@ class SampleSums {
   std::vector<const gpu::Image*> add();
 
   // Writes the picture of the mean: exposed, tone-mapped, sRGB.
-  void recordMean(gpu::CommandList& commands, const ToneMapping& toneMapping,
-                  const gpu::Image& picture) const;
+  void recordMean(gpu::CommandList& commands, float exposure, const gpu::Image& picture) const;
 
   // Writes the mean to the layers' R,G,B, direct.R,G,B, caustics.R,G,B and shafts.R,G,B.
   void read(Image& layers) const;
