@@ -66,6 +66,8 @@ std::vector<Scene> moved() {
   next().environment.ambient = vec3(3, 2, 1);
   next().environment.background = vec3(1, 2, 3);
   next().camera.exposure = 2;
+  next().camera.tone = ToneCurve::agx;
+  next().camera.exposure.reset();
   next().camera.verticalFov = 30;
   return scenes;
 }
