@@ -121,7 +121,7 @@ void drawWarnings(const ViewerState& state) {
 
 void drawExposure(Camera& camera, std::optional<float>& metered) {
   bool isAuto = !camera.exposure;
-  if (ImGui::Checkbox("Exposure by itself", &isAuto))
+  if (ImGui::Checkbox("Automatic exposure", &isAuto))
     camera.exposure = isAuto ? std::nullopt : std::optional(metered.value_or(1.0f));
   tooltip("Metered when the scene is opened, and kept until it is metered again");
   if (camera.exposure) {
