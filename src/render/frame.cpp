@@ -180,8 +180,7 @@ std::vector<PassTime> Renderer::gather(uint32_t samples) {
 // The next one of those in `places_`.
 void Renderer::addSample(const Remade& remade, std::vector<PassTime>& passes) {
   drawSample(places_.at(sums_.count()), remade, passes);
-  const std::vector<PassTime> last = addLayers();
-  passes.insert(passes.end(), last.begin(), last.end());
+  for (const PassTime& pass : addLayers()) passes.push_back(pass);
 }
 
 void Renderer::drawMean(std::vector<PassTime>& passes) {
@@ -193,8 +192,7 @@ void Renderer::drawMean(std::vector<PassTime>& passes) {
 
 // Of the sample that was drawn last. The planes in the air are then chosen as if it had not been.
 void Renderer::meter(std::vector<PassTime>& passes) {
-  const std::vector<PassTime> some = addLayers();
-  passes.insert(passes.end(), some.begin(), some.end());
+  for (const PassTime& pass : addLayers()) passes.push_back(pass);
   onHost(passes, "metering", [&] { exposure_ = meteredExposure(sums_.luminances()); });
   sums_.begin();
   arePlanesInAirChosen_ = false;
@@ -271,8 +269,7 @@ void Renderer::ensureImages() {
 
 void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
   const auto onDevice = [&](const std::function<void(gpu::CommandList&)>& record) {
-    const std::vector<PassTime> some = device_.submitAndWait(record);
-    passes.insert(passes.end(), some.begin(), some.end());
+    for (const PassTime& pass : device_.submitAndWait(record)) passes.push_back(pass);
   };
   onDevice([&](gpu::CommandList& commands) {
     if (remade.shadowMaps)
