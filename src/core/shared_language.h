@@ -12,6 +12,7 @@
 
 namespace nephroid {
 using glm::abs;
+using glm::acos;
 using glm::asin;
 using glm::atan;
 using glm::ceil;

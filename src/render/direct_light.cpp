@@ -4,10 +4,12 @@
 #include <optional>
 
 #include "gpu/transfer.h"
+#include "lights/emitters.h"
 #include "lights/light_intensity.h"
 #include "shaders/render/air/air_vert.h"
 #include "shaders/render/direct_frag.h"
 #include "shaders/render/shadow_vert.h"
+#include "shaders/render/shadows/lamps_frag.h"
 
 namespace nephroid {
 namespace {
@@ -55,15 +57,15 @@ DirectLight::DirectLight(gpu::Device& device, const Scene& scene, uint32_t shado
       goboSampler_(gpu::createSampler(device)) {
   for (const Profile& profile : scene.profiles) profiles_.push_back(profileImage(device, profile));
   profiles_.push_back(profileImage(device, {"none", PhotometryType::c, {0, 180}, {0}, {0, 0}, 0}));
+  none_ = gpu::createImage(device, "nothing", {.format = VK_FORMAT_R8_UNORM, .layers = 1});
 }
 
 DirectLight::DrawnLight DirectLight::drawn(const Scene& scene, ShadowedLight shadowed) {
   const Light& light = scene.lights[shadowed.row.first.light];
-  DrawnLight drawn{std::move(shadowed), {}, kNone, kNone, vec2(0)};
+  DrawnLight drawn{std::move(shadowed), {}, light.type == LightType::sky, kNone, kNone, vec2(0)};
   drawn.key = {.type = drawn.shadowed.row.first.type,
                .mapCount = drawn.shadowed.mapCount,
-               .isLine = drawn.shadowed.row.count > 1,
-               .isSoft = drawn.shadowed.softness > 0};
+               .isLine = drawn.shadowed.row.count > 1};
   if (light.type != LightType::spot) return drawn;
   drawn.gobo = light.goboTexture;
   drawn.profile = light.profile;
@@ -75,8 +77,9 @@ DirectLight::DrawnLight DirectLight::drawn(const Scene& scene, ShadowedLight sha
 }
 
 std::vector<gpu::SpecializationConstant> DirectLight::ProgramKey::specialization() const {
-  return {{"kEmitterType", type}, {"kMapCount", mapCount},       {"kIsLine", isLine}, {"kIsSoft", isSoft},
-          {"kHasGobo", hasGobo},  {"kProfileType", profileType}, {"kHasAir", hasAir}, {"kHasBox", hasAirBox}};
+  return {{"kEmitterType", type}, {"kMapCount", mapCount},       {"kIsLine", isLine},
+          {"kHasGobo", hasGobo},  {"kProfileType", profileType}, {"kHasAir", hasAir},
+          {"kHasBox", hasAirBox}};
 }
 
 DirectConstants DirectLight::constants(uint32_t index) const {
@@ -91,7 +94,6 @@ DirectConstants DirectLight::constants(uint32_t index) const {
   constants.coneOffset = light.row.first.coneOffset;
   constants.samples = light.row.count;
   constants.goboTurn = drawn.goboTurn;
-  constants.softness = light.softness;
   if (light.mapCount == 0) return constants;
   const ShadowProjection& projection = light.projection;
   const float width = 2 * projection.halfWidth, depth = projection.farthest - projection.nearest;
@@ -110,8 +112,10 @@ DirectConstants DirectLight::constants(uint32_t index) const {
   return constants;
 }
 
-void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& extents, const LightsInAir& air) {
+void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& extents, const LightsInAir& air,
+                         const LampShadows& shadows) {
   air_ = air;
+  shadows_ = &shadows;
   objectsToWorld_.clear();
   for (const Object& object : scene.objects) objectsToWorld_.push_back(toWorld(object.placement));
   lights_.clear();
@@ -119,7 +123,14 @@ void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& exte
     lights_.push_back(drawn(scene, std::move(light)));
   maps_.resize(lights_.size());
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const ShadowedLight& light = lights_[i].shadowed;
+    ShadowedLight& light = lights_[i].shadowed;
+    ProgramKey& key = lights_[i].key;
+    const bool isSky = lights_[i].isOfSky;
+    if (!isSky && air.lights == 0) {  // nothing reads its maps
+      light.maps.clear();
+      light.mapCount = key.mapCount = 0;
+      light.resolution = 1;
+    }
     const auto layers = std::max<uint32_t>(static_cast<uint32_t>(light.maps.size()), 1);
     if (!maps_[i] || maps_[i].layerCount() < layers || maps_[i].width() != light.resolution)
       maps_[i] = gpu::createImage(device_, "shadow maps",
@@ -127,13 +138,81 @@ void DirectLight::update(const Scene& scene, const std::vector<MeshExtent>& exte
                                    .width = light.resolution,
                                    .height = light.resolution,
                                    .layers = layers});
-    ProgramKey& key = lights_[i].key;
     key.hasAir = air.lights != 0;
     key.hasAirBox = air.hasBox;
-    if (!programs_.contains(key))
+    if (isSky && !programs_.contains(key))
       programs_[key] = gpu::createRasterProgram(
           device_, "direct light", shaders::render_air_air_vert, shaders::render_direct_frag,
           {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}}, key.specialization());
+  }
+  addLamps(scene, shadows);
+}
+
+namespace {
+
+uint32_t formOf(const Light& light) {
+  switch (light.type) {
+    case LightType::directional:
+      return kLampAfar;
+    case LightType::spot:
+      return kLampSpot;
+    case LightType::area:
+      return kLampPanel;
+    case LightType::line:
+      return kLampLine;
+    default:
+      return kLampBall;
+  }
+}
+
+LampConstants lampConstants(const Light& light) {
+  const Emitter lamp = lampOf(light);
+  LampConstants constants{};
+  constants.position = light.position;
+  constants.radius =
+      light.type == LightType::directional ? std::sin(glm::radians(0.5f * light.angle)) : light.radius;
+  constants.direction = light.direction;
+  constants.coneScale = lamp.coneScale;
+  constants.coneOffset = lamp.coneOffset;
+  constants.power = lamp.power;
+  constants.u = light.type == LightType::line ? light.end - light.position : light.u;
+  constants.v = light.v;
+  return constants;
+}
+
+}  // namespace
+
+void DirectLight::addLamps(const Scene& scene, const LampShadows& shadows) {
+  lamps_.clear();
+  uint32_t firstRow = 0;
+  for (const Light& light : scene.lights) {
+    const auto rows = uint32_t(emitterRowsOf(light).size());
+    if (light.type != LightType::sky) {
+      DrawnLamp lamp{{}, lampConstants(light), firstRow + rows / 2};
+      const DrawnLight& drawn = lights_[lamp.light];
+      lamp.constants.goboTurn = drawn.goboTurn;
+      if (air_.lights != 0) lamp.constants.air = air_.lights + lamp.light * sizeof(AirLight);
+      lamp.key = {formOf(light),
+                  lamp.constants.radius > 0,
+                  shadows.hasShadows(uint32_t(lamps_.size())),
+                  drawn.key.hasGobo,
+                  drawn.key.profileType,
+                  drawn.key.hasAir && light.type != LightType::directional,
+                  drawn.key.hasAirBox};
+      if (!lampPrograms_.contains(lamp.key))
+        lampPrograms_[lamp.key] = gpu::createRasterProgram(
+            device_, "light of a lamp", shaders::render_air_air_vert, shaders::render_shadows_lamps_frag,
+            {.colors = {{VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Blend::add}}},
+            {{"kForm", lamp.key.form},
+             {"kHasRadius", lamp.key.hasRadius},
+             {"kHasShadows", lamp.key.hasShadows},
+             {"kHasGobo", lamp.key.hasGobo},
+             {"kProfileType", lamp.key.profileType},
+             {"kHasAir", lamp.key.hasAir},
+             {"kHasBox", lamp.key.hasAirBox}});
+      lamps_.push_back(lamp);
+    }
+    firstRow += rows;
   }
 }
 
@@ -151,19 +230,33 @@ void DirectLight::recordShadowMaps(gpu::CommandList& commands, const GpuScene& g
   }
 }
 
-void DirectLight::record(gpu::CommandList& commands, const GpuScene& gpuScene, const ReceiverPoints& points,
-                         const gpu::Image& lux) {
+void DirectLight::drawLamp(gpu::CommandList& commands, const GpuScene& gpuScene, const ReceiverPoints& points,
+                           uint32_t view, uint32_t index) {
+  const DrawnLamp& lamp = lamps_[index];
+  const auto [map, gobo, profile] = bindings(lamp.light, gpuScene);
+  commands.draw(lampPrograms_.at(lamp.key), 3, 1, lamp.constants,
+                {{"receiverPosition", *points.position},
+                 {"receiverNormal", *points.normal},
+                 {"seenParts", lamp.key.hasShadows ? shadows_->parts(view, index) : gpuScene.texture(kNone)},
+                 gobo,
+                 profile,
+                 {"boxDepths", air_.depths ? *air_.depths : none_, goboSampler_}});
+}
+
+void DirectLight::record(gpu::CommandList& commands, const GpuScene& gpuScene, uint32_t view,
+                         const ReceiverPoints& points, const gpu::Image& lux) {
   commands.render({.colors = {{&lux, 0, vec4(0)}}, .region = points.region}, [&] {
+    for (uint32_t i = 0; i < lamps_.size(); ++i) drawLamp(commands, gpuScene, points, view, i);
     for (uint32_t i = 0; i < lightCount(); ++i) {
+      if (!lights_[i].isOfSky) continue;
       const auto [map, gobo, profile] = bindings(i, gpuScene);
-      commands.draw(
-          programs_.at(key(i)), 3, 1, constants(i),
-          {{"receiverPosition", *points.position},
-           {"receiverNormal", *points.normal},
-           map,
-           gobo,
-           profile,
-           {"boxDepths", air_.depths ? *air_.depths : maps_[i], air_.depths ? goboSampler_ : sampler_}});
+      commands.draw(programs_.at(key(i)), 3, 1, constants(i),
+                    {{"receiverPosition", *points.position},
+                     {"receiverNormal", *points.normal},
+                     map,
+                     gobo,
+                     profile,
+                     {"boxDepths", air_.depths ? *air_.depths : none_, goboSampler_}});
     }
   });
 }

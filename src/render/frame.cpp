@@ -106,10 +106,12 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       sight_(device, settings.sight),
       raySight_(device, hasTurbidWater_),
       waysInWater_(device, isByRays_),
+      lampShadows_(device),
       directLight_(device, transport.scene(), shadowMapSizeOf(settings)),
       shafts_(device, transport.scene(), settings.size, settings.shafts),
       sums_(device, tone_) {
   sums_.resize(settings.size);
+  lampShadows_.resize(settings.size);
   for (const Mesh& mesh : transport.scene().meshes) extents_.push_back(extentOf(mesh));
   technique_.reserve(settings.size);
 }
@@ -120,6 +122,7 @@ void Renderer::resize(uvec2 size) {
   images_ = createFrameImages(device_, size.x, size.y);
   directLight_.resize(shadowMapSizeOf(settings_));
   shafts_.resize(size);
+  lampShadows_.resize(size);
   sums_.resize(size);
   seenAt_.reset();
   technique_.reserve(size);
@@ -140,10 +143,14 @@ std::vector<PassTime> Renderer::draw(const Scene& scene) {
   onHost(passes, "placement", [&] { place(scene); });
   sums_.begin();
   const Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.traits().followsCamera);
-  onHost(passes, "shadow projections", [&] { directLight_.update(scene, extents_, shafts_.lightsInAir()); });
+  onHost(passes, "shadow projections", [&] {
+    lampShadows_.update(transport_.scene(), extents_);
+    directLight_.update(scene, extents_, shafts_.lightsInAir(), lampShadows_);
+  });
   if (remade.beams) onHost(passes, "beams", [&] { technique_.update(gpuScene_); });
   arePlanesInAirChosen_ = false;
   const bool isMetered = !scene.camera.exposure;
+  sample_ = {};
   if (isMetered || settings_.samples == 1) drawSample(vec2(0), remade, passes);
   if (isMetered) meter(passes);
   if (settings_.samples > 1) {
@@ -179,7 +186,8 @@ std::vector<PassTime> Renderer::gather(uint32_t samples) {
 
 // The next one of those in `places_`.
 void Renderer::addSample(const Remade& remade, std::vector<PassTime>& passes) {
-  drawSample(places_.at(sums_.count()), remade, passes);
+  sample_ = {sums_.count(), uint32_t(places_.size())};
+  drawSample(places_.at(sample_.index), remade, passes);
   for (const PassTime& pass : addLayers()) passes.push_back(pass);
 }
 
@@ -283,10 +291,15 @@ void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
       else
         sight_.record(commands, gpuScene_, images_);
     }
-    if (!shafts_) illuminate(commands);
+    if (remade.sight && lampShadows_.isAny())
+      commands.pass("points to be lit", [&] {
+        for (const LitView& lit : litViews())
+          if (lit.view != kSeenByRays) lampShadows_.recordPoints(commands, lit.view, lit.points);
+      });
   });
-  if (!shafts_) return;
-  if (!std::exchange(arePlanesInAirChosen_, true))
+  if (lampShadows_.isAny() && (remade.sight || remade.shadowMaps))
+    onHost(passes, "shadows", [&] { lookAtLamps(); });
+  if (shafts_ && !std::exchange(arePlanesInAirChosen_, true))
     onHost(passes, "planes in the air",
            [&] { shafts_.choosePlanes(directLight_, gpuScene_, images_.depth); });
   onDevice([&](gpu::CommandList& commands) { illuminate(commands); });
@@ -316,16 +329,15 @@ void Renderer::illuminate(gpu::CommandList& commands) {
     commands.clear(images_.wayStart, vec4(0));
     commands.clear(images_.scattered, vec4(0));
   }
-  const auto lightSeen = [&](uint32_t which, const std::optional<gpu::Region>& region) {
-    const SeenImages& seen = images_.seen[which];
-    light(commands, {&seen.position, &seen.normal, region}, seen.directLux, seen.causticsLux);
-  };
-  lightSeen(kSeen, std::nullopt);
-  if (isByRays_ && raySight_.hasPoints())
-    light(commands, raySight_.points(), raySight_.directLux(), raySight_.causticsLux());
-  if (sight_.reflects()) lightSeen(kSeenReflected, sight_.region());
-  if (sight_.disperses())
-    for (const uint32_t channel : {kSeenGreen, kSeenBlue}) lightSeen(channel, sight_.region());
+  const std::vector<LitView> views = litViews();
+  if (lampShadows_.isAny()) commands.pass("direct light", [&] { lampShadows_.recordParts(commands); });
+  for (const LitView& lit : views) {
+    commands.pass("direct light", [&] {
+      clearRegion(commands, *lit.causticsLux, lit.points.region);
+      directLight_.record(commands, gpuScene_, lit.view, lit.points, *lit.directLux);
+    });
+    technique_.shade(commands, lit.points, *lit.causticsLux);
+  }
   const CasterImages casters = isByRays_ ? raySight_.casterImages() : sight_.casterImages();
   for (const WaterInSight& water : waysInWater_.waters()) {
     commands.pass("ways in water", [&] {
@@ -335,15 +347,6 @@ void Renderer::illuminate(gpu::CommandList& commands) {
   }
   if (shafts_)
     commands.pass("shafts", [&] { shafts_.record(commands, directLight_, gpuScene_, images_.depth); });
-}
-
-void Renderer::light(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& directLux,
-                     const gpu::Image& causticsLux) {
-  commands.pass("direct light", [&] {
-    clearRegion(commands, causticsLux, points.region);
-    directLight_.record(commands, gpuScene_, points, directLux);
-  });
-  technique_.shade(commands, points, causticsLux);
 }
 
 // Where there are no casters as if there were none at all, which is less work.

@@ -11,6 +11,7 @@
 #include "render/metering.h"
 #include "render/samples/sample_sums.h"
 #include "render/settings.h"
+#include "render/shadows/lamp_shadows.h"
 #include "render/sight/rays/ray_sight.h"
 #include "render/sight/sight_pass.h"
 #include "render/sight/ways_in_water.h"
@@ -90,8 +91,14 @@ class Renderer {
   void drawFrame(const Remade& remade, std::vector<PassTime>& passes);
   void drawReceivers(gpu::CommandList& commands);
   void illuminate(gpu::CommandList& commands);
-  void light(gpu::CommandList& commands, const ReceiverPoints& points, const gpu::Image& directLux,
-             const gpu::Image& causticsLux);
+  // What is lit, by its place in LampShadows, with the images that its light goes to.
+  struct LitView {
+    uint32_t view = 0;
+    ReceiverPoints points;
+    const gpu::Image *directLux, *causticsLux;
+  };
+  std::vector<LitView> litViews() const;
+  void lookAtLamps();
   // The region of the picture that holds all casters.
   const gpu::Region& casterRegion() const { return isByRays_ ? raySight_.region() : sight_.region(); }
   void composite(gpu::CommandList& commands, const std::map<CasterTraits, gpu::Program>& programs,
@@ -114,12 +121,14 @@ class Renderer {
   SightPass sight_;
   RaySight raySight_;
   WaysInWater waysInWater_;
+  LampShadows lampShadows_;
   DirectLight directLight_;
   Shafts shafts_;
   SampleSums sums_;
 
   LastScene lastScene_;
   std::vector<vec2> places_;           // of the samples that are being drawn
+  SampleOfMany sample_;                // that is being drawn
   std::optional<vec2> seenAt_;         // the place in each pixel that the images of surfaces are of
   bool arePlanesInAirChosen_ = false;  // for this frame
 

@@ -26,6 +26,7 @@ struct SurfaceConstants {
 
 // A light, and the projection of its shadow maps: each map looks along `mapDepth`, with `aim` in its middle.
 struct DirectConstants {
+  BUFFER_ADDRESS(AirLights) air;  // the first; not there where there is no air
   // As in Emitter. For a row of emitters: the first one, with `direction` (m) as the step to the next.
   vec3 position;
   float coneScale;
@@ -44,8 +45,27 @@ struct DirectConstants {
   vec3 aim;         // m
   uint samples;     // points of a row
   vec2 goboTurn;    // of placeInGobo
-  float softness;   // m, radius of what the emitter stands for; of light from afar its tangent
+};
+
+// The forms of lamps.
+SHARED_CONSTANT uint kLampAfar = 0u;  // as kEmitterDirectional, and so on
+SHARED_CONSTANT uint kLampBall = 1u;
+SHARED_CONSTANT uint kLampSpot = 2u;
+SHARED_CONSTANT uint kLampPanel = 3u;
+SHARED_CONSTANT uint kLampLine = 4u;
+
+// A light that is not a sky.
+struct LampConstants {
   BUFFER_ADDRESS(AirLights) air;  // the first; not there where there is no air
+  vec3 position;                  // m; one end of a line, the first corner of a panel
+  float radius;                   // m, of a ball; from afar the sine of half the angle that it is seen under
+  vec3 direction;
+  float coneScale;
+  vec3 power;  // cd, of the whole lamp at its peak; lux of light from afar
+  float coneOffset;
+  vec3 u;         // m, a panel's side; from a line's end to its other
+  vec3 v;         // m, a panel's other side
+  vec2 goboTurn;  // of placeInGobo
 };
 
 // The surfaces for which a pixel is lit. Each has its own SeenImages.
@@ -69,7 +89,7 @@ struct CompositeConstants {
 SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(nephroid::DirectConstants) <= 128);
+static_assert(sizeof(nephroid::DirectConstants) <= 128 && sizeof(nephroid::LampConstants) <= 128);
 #endif
 
 #endif

@@ -1,40 +1,17 @@
-// One light: its shadow maps, its gobo and its profile.
+// One light with its shadow maps, its gobo and its profile.
 #include "render/frame_data.h"
-
-#include "lights/light_shape.h"
 
 layout(constant_id = 0) const uint kEmitterType = kEmitterPoint;
 // Maps for each point. 0: nothing can cast a shadow. 1: one map. 6: the faces of a cube around the light: +x,
 // -x, +y, -y, +z, -z.
 layout(constant_id = 1) const uint kMapCount = 1;
 layout(constant_id = 2) const bool kIsLine = false;
-layout(constant_id = 3) const bool kHasGobo = false;
-layout(constant_id = 4) const uint kProfileType = kNoProfile;  // else kProfileType...
 layout(constant_id = 5) const bool kHasAir = false;
-layout(constant_id = 7) const bool kIsSoft = false;  // shadows have a penumbra
 layout(push_constant, scalar) uniform Constants {
   DirectConstants constants;
 };
 uniform sampler2DArray shadowMaps;
-uniform sampler2D gobo;
-// Row 0 and column 0: vertical and horizontal angles (degrees). The rest: parts of the peak, a row for each
-// horizontal angle.
-uniform sampler2D profile;
-
-struct ProfileView {
-  uint type;
-  ivec2 counts;
-};
-float verticalAngle(ProfileView view, int i) {
-  return texelFetch(profile, ivec2(i + 1, 0), 0).r;
-}
-float horizontalAngle(ProfileView view, int i) {
-  return texelFetch(profile, ivec2(0, i + 1), 0).r;
-}
-float profileValue(ProfileView view, ivec2 at) {
-  return texelFetch(profile, at + 1, 0).r;
-}
-#include "lights/profile_lookup.h"
+#include "render/light_shape.glsl.h"
 
 // One of the light's points.
 Emitter emitterAt(vec3 origin) {
@@ -92,15 +69,7 @@ float litPart(vec3 offset, vec2 middle, uint firstMap) {
   return isPerspective && place.z <= 0 ? 1 : sum;
 }
 
-// The part (0..1) of the light along `direction` that gobo and profile let through, within the cone.
+// The same for this light.
 vec3 shape(vec3 direction) {
-  const vec3 local = alongFrame(lightFrame(constants.direction), direction);
-  vec3 part = vec3(1);
-  if (kProfileType != kNoProfile)
-    part *= profileFraction(ProfileView(kProfileType, textureSize(profile, 0) - 1), local);
-  if (kHasGobo) {
-    const vec2 fromMiddle = placeInGobo(constants.goboTurn, local);
-    part *= textureLod(gobo, 0.5 + fromMiddle / vec2(textureSize(gobo, 0)), 0).rgb;
-  }
-  return part;
+  return shape(constants.direction, constants.goboTurn, direction);
 }

@@ -5,15 +5,20 @@
 namespace nephroid {
 namespace {
 
-bool hasExtendedLight(const Scene& scene) {
-  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-    return light.type == LightType::line || light.type == LightType::area || light.type == LightType::sky;
-  });
-}
-
 bool hasSky(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(),
                      [](const Light& light) { return light.type == LightType::sky; });
+}
+
+bool hasLampWithParts(const Scene& scene) {
+  return (scene.medium || hasCaster(scene)) &&
+         std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+           return light.type == LightType::line || light.type == LightType::area;
+         });
+}
+
+bool hasShadowMaps(const Scene& scene) {
+  return hasSky(scene) || (scene.medium.has_value() && !scene.lights.empty());
 }
 
 bool hasMediumAndCaster(const Scene& scene) {
@@ -43,12 +48,20 @@ std::span<const Omission> omissionsOfFrame() {
        "scatters "
        "behind glass and in mirrors, and takes of what is seen there",
        hasMediumAndCaster},
-      {"The extent of lights: a line is a row of points, an area a grid of them and a sky a number of "
-       "directions, in light, shadows and caustics",
-       hasExtendedLight},
+      {"The extent of skies: a sky is a number of directions, in light, shadows and caustics", hasSky},
+      {"The extent of lights, in shafts and in caustics but those of adaptive-beams: a line is a row of "
+       "points, "
+       "an area a grid of them",
+       hasLampWithParts},
       {"The sky itself: where nothing stands, and in glass and mirrors, the background is seen", hasSky},
-      {"Shadow edges finer than two texels of a shadow map; there are as many texels as pixels along the "
-       "picture's longer side, divided by the square root of how many points or directions a light is",
+      {"Shadow edges in shafts and of skies that are finer than two texels of a shadow map; there are as "
+       "many "
+       "texels as pixels along the picture's longer side, divided by the square root of how many points or "
+       "directions a light is",
+       hasShadowMaps},
+      {"What shades less than a tenth of a pixel or so: where all points around a pixel saw the same of a "
+       "lamp "
+       "in two samples, so do those of the samples after",
        hasLightAndReceiver},
       {"Smooth edges: a pixel shows what its center sees, not the mean over its square", always},
   };

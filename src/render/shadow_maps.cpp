@@ -7,6 +7,7 @@
 #include "core/directions.h"
 #include "geometry/bounds.h"
 #include "lights/emitters.h"
+#include "lights/lamp_light.h"
 
 namespace nephroid {
 namespace {
@@ -41,15 +42,19 @@ float nearestAlong(const PlacedObject& object, vec3 origin, vec3 axis) {
   return std::max(nearest, dot(object.sphere.center - origin, axis) - object.sphere.radius);
 }
 
-// A flat object with all others and the light on one side of it (a floor, a wall) shadows no other.
-bool canShadow(const PlacedObject& object, const std::vector<PlacedObject>& all, const Emitter& emitter) {
+// A flat object with all others and the light on one side of it (a floor, a wall) shadows no other. `extent`:
+// of the light, m about its middle, or the sine of half the angle that it is seen under. `sunk`: how far
+// another may be on the other side, of its size.
+bool canShadow(const PlacedObject& object, const std::vector<PlacedObject>& all, const Emitter& emitter,
+               float extent, float sunk) {
   if (!object.isFlat) return true;
   const vec3 origin = object.sphere.center;
   const float lightSide = emitter.type == kEmitterDirectional ? -dot(object.normal, emitter.direction)
                                                               : dot(object.normal, emitter.position - origin);
+  if (std::abs(lightSide) < extent) return true;
   const vec3 axis = lightSide >= 0 ? object.normal : -object.normal;
   return std::ranges::any_of(all, [&](const PlacedObject& other) {
-    return nearestAlong(other, origin, axis) < -1e-4f * (other.sphere.radius + object.sphere.radius);
+    return nearestAlong(other, origin, axis) < -sunk * (other.sphere.radius + object.sphere.radius);
   });
 }
 
@@ -153,7 +158,7 @@ class Planner {
     shadowing_.clear();
     for (const PlacedObject& object : objects_)
       if (hasAir_ || std::ranges::any_of(points, [&](const Emitter& emitter) {
-            return canShadow(object, objects_, emitter);
+            return canShadow(object, objects_, emitter, 0, 1e-4f);
           }))
         shadowing_.push_back(object);
     if (shadowing_.empty()) return lit;
@@ -259,29 +264,6 @@ MeshExtent extentOf(const Mesh& mesh) {
   return extent;
 }
 
-namespace {
-
-// m, the radius of a disk as large as what one of a light's emitters stands for; of light from afar its
-// tangent.
-float softnessOf(const Light& light) {
-  switch (light.type) {
-    case LightType::point:
-    case LightType::spot:
-      return light.radius;
-    case LightType::directional:
-      return std::tan(glm::radians(0.5f * light.angle));
-    case LightType::line:
-      return 0.5f * length(light.end - light.position) / float(light.samples);
-    case LightType::area:
-      return std::sqrt(length(cross(light.v, light.u)) / (kPi * float(light.grid.x * light.grid.y)));
-    case LightType::sky:
-      break;
-  }
-  return 0;
-}
-
-}  // namespace
-
 std::vector<ShadowedLight> planShadowMaps(const Scene& scene, const std::vector<MeshExtent>& extents,
                                           uint32_t resolution) {
   Planner planner(scene, extents, resolution);
@@ -290,12 +272,28 @@ std::vector<ShadowedLight> planShadowMaps(const Scene& scene, const std::vector<
     const std::vector<EmitterRow> rows = emitterRowsOf(scene.lights[i], i);
     uint32_t together = 0;
     for (const EmitterRow& row : rows) together += row.count;
-    for (const EmitterRow& row : rows) {
-      lights.push_back(planner.plan(row, together));
-      if (lights.back().mapCount > 0) lights.back().softness = softnessOf(scene.lights[i]);
-    }
+    for (const EmitterRow& row : rows) lights.push_back(planner.plan(row, together));
   }
   return lights;
+}
+
+std::vector<Box> boxesThatShadow(const Scene& scene, const std::vector<MeshExtent>& extents,
+                                 const Light& light) {
+  std::vector<PlacedObject> objects;
+  for (uint32_t i = 0; i < scene.objects.size(); ++i)
+    if (!scene.meshOf(scene.objects[i]).positions.empty()) objects.push_back(placed(scene, extents, i));
+  Emitter lamp = lampOf(light);
+  lamp.position = middleOf(light);
+  const float extent =
+      light.type == LightType::directional ? std::sin(glm::radians(0.5f * light.angle)) : extentOf(light);
+  std::vector<Box> boxes;
+  for (const PlacedObject& object : objects) {
+    if (!canShadow(object, objects, lamp, extent, 1e-6f)) continue;
+    Box box;
+    for (const vec3 corner : object.corners) box.include(corner);
+    boxes.push_back(box);
+  }
+  return boxes;
 }
 
 }  // namespace nephroid

@@ -46,7 +46,6 @@ struct ShadowedLight {
   uint32_t mapCount = 0;    // for each point
   uint32_t resolution = 1;  // texels along a side of a map
   ShadowProjection projection;
-  float softness = 0;  // m, radius of what an emitter stands for; of light from afar the tangent of its angle
   std::vector<ShadowMap> maps;  // the maps of the first emitter, then those of the next
 };
 
@@ -57,5 +56,10 @@ struct ShadowedLight {
 // only a part of the light.
 std::vector<ShadowedLight> planShadowMaps(const Scene& scene, const std::vector<MeshExtent>& extents,
                                           uint32_t resolution);
+
+// The boxes (m, world space) of the objects that may stand between a light and another object, or between
+// the light and another part of the same object. Not for a sky.
+std::vector<Box> boxesThatShadow(const Scene& scene, const std::vector<MeshExtent>& extents,
+                                 const Light& light);
 
 }  // namespace nephroid

@@ -2,12 +2,13 @@
 // there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "render/frame_data.h"
+#include "render/air/air_data.h"
 
 layout(constant_id = 5) const bool kHasAir = true;
 layout(push_constant, scalar) uniform Constants {
-  DirectConstants constants;
-};
+  BUFFER_ADDRESS(AirLights) air;  // the first of what a light's pass has
+}
+constants;
 layout(location = 0) flat out Air air;
 layout(location = 5) flat out AirPlanes planes;
 layout(location = 8) flat out vec3 eye;

@@ -172,9 +172,7 @@ void Shafts::record(gpu::CommandList& commands, const DirectLight& directLight, 
                     const gpu::Image& depth) {
   if (!image_) return;
   commands.render({.colors = {{&image_, 0, vec4(0)}}}, [&] {
-    DirectConstants constants{};
-    constants.air = lights_.address();
-    commands.draw(transmittance_, 3, 1, constants,
+    commands.draw(transmittance_, 3, 1, lights_.address(),
                   {{"depthImage", depth}, {"boxDepths", box_->depths(), sampler_}});
     for (uint32_t light = 0; light < lightCount_; ++light)
       draw(commands, directLight, gpuScene, depth, light, lights_.address() + light * sizeof(AirLight));

@@ -30,6 +30,7 @@ class RaySight {
   // The region of the picture that holds all casters.
   const gpu::Region& region() const { return seen_.region; }
   const RaySightCounts& counts() const { return seen_.counts; }
+  const SeenByRays& seen() const { return seen_; }
 
   // Draws casters into the depth image, and takes the receivers behind them out of `images`.
   void record(gpu::CommandList& commands, const FrameImages& images);
