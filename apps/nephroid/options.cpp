@@ -250,7 +250,7 @@ void addToneAttributes(const ToneMapping& toneMapping, std::vector<ImageAttribut
 
 void warnOf(const Scene& scene, Stats& stats) {
   const std::size_t told = stats.warnings.size();
-  for (const std::string& line : meshWarnings(scene)) addLine(stats.warnings, line);
+  for (const std::string& line : loadWarnings(scene)) addLine(stats.warnings, line);
   for (std::size_t i = told; i < stats.warnings.size(); ++i)
     std::cerr << "nephroid: warning: " << stats.warnings[i] << '\n';
 }

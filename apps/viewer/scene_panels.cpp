@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "lights/clear_sky.h"
 #include "report/missing_light.h"
 #include "scene/dispersion.h"
 #include "widgets.h"
@@ -64,6 +65,8 @@ void drawLight(Light& light, const Light& first) {
                      endOfSlider(std::max({first.intensity.x, first.intensity.y, first.intensity.z})), "%.4g",
                      "Multiplies the map (nit of an even sky)");
     slider("Turned", light.skyRotation, -180, 180, "%.0f°", "About the upright axis (degrees)");
+    ImGui::Checkbox("Seen", &light.isSeen);
+    tooltip("It is seen where nothing stands, in glass and in mirrors");
   } else if (light.type == LightType::directional) {
     colorAndStrength("light", "Illuminance", light.illuminance,
                      endOfSlider(std::max({first.illuminance.x, first.illuminance.y, first.illuminance.z})),
@@ -112,7 +115,7 @@ void drawDielectric(Material& material) {
 // What was mended when the scene was loaded, and why light is missing now.
 void drawWarnings(const ViewerState& state) {
   if (!state.isOpen) return;
-  std::vector<std::string> lines = meshWarnings(state.scene);
+  std::vector<std::string> lines = loadWarnings(state.scene);
   for (std::string& line : missingLight(state.scene, state.stats.budget)) lines.push_back(std::move(line));
   ImGui::PushStyleColor(ImGuiCol_Text, kWarningColor);
   for (const std::string& line : lines) ImGui::TextWrapped("%s", line.c_str());
@@ -161,7 +164,12 @@ void drawLightsPanel(ViewerState& state) {
   if (!ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) return;
   for (uint32_t i = 0; i < state.scene.lights.size(); ++i) {
     if (!beginEntry(state, state.scene.lights[i].name, {Chosen::light, i})) continue;
-    drawLight(state.scene.lights[i], state.firstState.lights[i]);
+    Light& light = state.scene.lights[i];
+    const Light before = light;
+    drawLight(light, state.firstState.lights[i]);
+    if (light.sun != kNone && light != before)
+      state.scene.lights[light.sun] =
+          sunWithSky(state.firstState.lights[light.sun], state.firstState.lights[i], light);
     endEntry();
   }
   colorAndStrength("ambient", "Ambient", state.scene.environment.ambient, 1e5f, "%.3g lx",

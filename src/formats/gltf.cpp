@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "formats/default_sky.h"
 #include "formats/gltf_material.h"
 #include "geometry/mesh_checks.h"
 #include "scene/framing.h"
@@ -360,6 +361,7 @@ Scene loadGltfScene(const std::filesystem::path& file, double time) {
   scene.objects = std::move(part.objects);
   scene.lights = std::move(part.lights);
   scene.camera = part.camera ? *part.camera : framingCamera(scene);
+  lightByDefault(scene, false);
   return scene;
 }
 

@@ -8,6 +8,7 @@
 #include "formats/toml_table.h"
 #include "formats/toml_text.h"
 #include "geometry/bounds.h"
+#include "lights/clear_sky.h"
 #include "scene/framing.h"
 #include "water/wave_simulation.h"
 
@@ -38,8 +39,13 @@ void saveCamera(const Camera& before, const Camera& after, TomlText& text) {
   if (upFor(after.target - after.position) != after.up) text.set("camera", "up", tomlVector(after.up));
 }
 
-void saveEnvironment(const Environment& before, const Environment& after, TomlText& text) {
-  if (before.ambient != after.ambient) text.set("environment", "ambient", tomlColor(after.ambient));
+// A file with ambient light has no default sky.
+void saveEnvironment(const Environment& before, const Environment& after, bool hasDefaultSky, TomlText& text,
+                     std::vector<std::string>& notSaved) {
+  if (before.ambient != after.ambient && hasDefaultSky)
+    notSaved.push_back("ambient light beside the default sky");
+  else if (before.ambient != after.ambient)
+    text.set("environment", "ambient", tomlColor(after.ambient));
   if (before.background != after.background)
     text.set("environment", "background", tomlColor(after.background));
 }
@@ -179,6 +185,14 @@ void saveDirection(const Light& before, const Light& after, const toml::table& t
     text.set(table, "direction", tomlVector(after.direction));
 }
 
+// `isBackgroundNew`: the file did not give one before, and a sky that says nothing would no longer be seen.
+void saveIsSeen(const Light& before, const Light& after, bool isBackgroundNew, const toml::table& table,
+                TomlText& text) {
+  if (after.type != LightType::sky) return;
+  if (before.isSeen != after.isSeen || (isBackgroundNew && !table.contains("visible")))
+    text.set(table, "visible", after.isSeen ? "true" : "false");
+}
+
 void saveLight(const Light& before, const Light& after, const toml::table& table, TomlText& text) {
   if (before == after) return;
   const bool isArea = before.type == LightType::area;
@@ -205,6 +219,23 @@ void saveLight(const Light& before, const Light& after, const toml::table& table
   if (before.goboRotation != after.goboRotation)
     text.set(table, "gobo_rotation", tomlNumber(after.goboRotation));
   saveStrength(before, after, hasOtherCone, table, text);
+}
+
+// `after` without what changed of suns by their skies, which a file does not have.
+std::vector<Light> withoutMovedSuns(const std::vector<Light>& before, std::vector<Light> after) {
+  constexpr float kRounding = 1e-4f;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const uint32_t sun = before[i].sun;
+    if (sun == kNone) continue;
+    Light expected = sunWithSky(before[sun], before[i], after[i]);
+    const bool isNear =
+        distance(expected.direction, after[sun].direction) < kRounding &&
+        distance(expected.illuminance, after[sun].illuminance) <= kRounding * length(expected.illuminance);
+    expected.direction = after[sun].direction;
+    expected.illuminance = after[sun].illuminance;
+    if (isNear && expected == after[sun]) after[sun] = before[sun];
+  }
+  return after;
 }
 
 // What the names of imported things begin with, where there are as many objects before them; nothing in a
@@ -271,8 +302,14 @@ void saveList(const std::vector<Element>& before, const std::vector<Element>& af
 SavedScene savedScene(const std::string& source, const Scene& before, const Scene& after) {
   TomlText text(source, before.file.string());
   SavedScene saved;
+  const auto givesBackground = [&] {
+    const toml::table* environment = text.table("environment");
+    return environment && environment->contains("background");
+  };
+  const bool isBackgroundNew =
+      !givesBackground() && before.environment.background != after.environment.background;
   saveCamera(before.camera, after.camera, text);
-  saveEnvironment(before.environment, after.environment, text);
+  saveEnvironment(before.environment, after.environment, before.hasDefaultSky, text, saved.notSaved);
   saveMedium(before.medium, after.medium, text);
   saveList(before.materials, after.materials, 0, text.tables("material"), saved.notSaved,
            [&](const Material& was, const Material& is, const toml::table& table) {
@@ -280,9 +317,11 @@ SavedScene savedScene(const std::string& source, const Scene& before, const Scen
            });
   saveObjects(before, after, text, saved.notSaved);
   const std::vector<const toml::table*> lights = text.tables("light");
-  saveList(before.lights, after.lights, before.lights.size() - std::min(lights.size(), before.lights.size()),
-           lights, saved.notSaved, [&](const Light& was, const Light& is, const toml::table& table) {
+  saveList(before.lights, withoutMovedSuns(before.lights, after.lights),
+           before.lights.size() - std::min(lights.size(), before.lights.size()), lights, saved.notSaved,
+           [&](const Light& was, const Light& is, const toml::table& table) {
              saveLight(was, is, table, text);
+             saveIsSeen(was, is, isBackgroundNew, table, text);
            });
   saveImports(before, after, text, saved.notSaved);
   saved.text = text.text();

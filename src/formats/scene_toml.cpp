@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "formats/default_sky.h"
 #include "formats/mesh_file.h"
 #include "scene/framing.h"
 
@@ -113,13 +114,15 @@ Scene readTomlScene(const std::string& text, const std::filesystem::path& file, 
   auto lights = top.tables("light");
   auto sensors = top.tables("sensor");
   top.finish();
+  const bool isBackgroundGiven = environment && environment->has("background");
   if (environment) scene.environment = readEnvironment(*environment);
   if (medium) scene.medium = readMedium(*medium, file.parent_path());
   readMaterials(std::move(materials), scene);
   const std::optional<Camera> imported = readObjects(std::move(objects), scene, waves);
-  readLights(std::move(lights), scene);
+  readLights(std::move(lights), scene, isBackgroundGiven);
   readSensors(std::move(sensors), scene);
   scene.camera = camera ? readCamera(*camera) : imported ? *imported : framingCamera(scene);
+  if (!top.has("light")) lightByDefault(scene, isBackgroundGiven);
   return scene;
 }
 

@@ -19,7 +19,9 @@ std::string readSceneFile(const std::filesystem::path& file);
 
 // Each of these reads one kind of table and adds it to `scene`.
 void readMaterials(std::vector<TomlTable> tables, Scene& scene);
-void readLights(std::vector<TomlTable> tables, Scene& scene);
+// The suns of skies come before the lights of the tables. `isBackgroundGiven`: skies are not seen then, but
+// for those that say so.
+void readLights(std::vector<TomlTable> tables, Scene& scene, bool isBackgroundGiven);
 // The keys "phase" and "g" of what scatters light.
 void readPhase(TomlTable& table, PhaseType& phase, float& g);
 Medium readMedium(TomlTable table, const std::filesystem::path& folder);

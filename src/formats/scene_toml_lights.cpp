@@ -7,6 +7,7 @@
 #include "formats/ies.h"
 #include "formats/scene_toml.h"
 #include "formats/sky_file.h"
+#include "lights/clear_sky.h"
 #include "lights/emitters.h"
 #include "lights/light_shape.h"
 #include "lights/sky.h"
@@ -182,25 +183,53 @@ void readArea(TomlTable& table, Light& light) {
   light.grid = table.integers2("samples", {1, kMostAreaSamples}).value_or(light.grid);
 }
 
-void readSky(TomlTable& table, Light& light, Scene& scene) {
+void readEvenOrMappedSky(TomlTable& table, Light& light, Scene& scene) {
+  for (const char* key : {"sun", "turbidity", "ground"})
+    if (table.has(key)) table.fail(key, "goes with model = \"clear\" alone");
   light.skyMap = loadShared(table, "map", scene, scene.skies, loadSky);
-  const auto luminance = table.numberOrRgb("luminance", kNotNegative);
   if (light.skyMap == kNone) {
-    if (!luminance) table.fail("luminance", "or \"map\" must be there for a sky");
+    if (!table.has("luminance")) table.fail("luminance", "or \"map\" or \"model\" must be there for a sky");
     const SkyMap even = evenSky();
     const auto there = std::ranges::find(scene.skies, even.name, &SkyMap::name);
     light.skyMap = static_cast<uint32_t>(there - scene.skies.begin());
     if (there == scene.skies.end()) scene.skies.push_back(even);
   }
-  light.intensity = luminance.value_or(vec3(1));
+  light.sky = skyParts(scene.skies[light.skyMap], light.samples);
+}
+
+// Returns its sun.
+Light readClearSky(TomlTable& table, Light& light, Scene& scene) {
+  table.choice("model", {"clear"});
+  if (table.has("map")) table.fail("map", "and \"model\" are both there; give one of them");
+  ClearSky clear;
+  const auto sun = table.vector2("sun");
+  if (!sun) table.fail("sun", "must be there for model = \"clear\": [azimuth, elevation] in degrees");
+  if (!(std::abs(sun->x) <= 360)) table.fail("sun", "must have an azimuth from -360 to 360 degrees");
+  if (!(sun->y >= 0 && sun->y <= 90)) table.fail("sun", "must have an elevation from 0 to 90 degrees");
+  clear.azimuth = sun->x;
+  clear.elevation = sun->y;
+  clear.turbidity = static_cast<float>(
+      table.number("turbidity", {kLowestTurbidity, kHighestTurbidity}).value_or(clear.turbidity));
+  clear.ground = table.numberOrRgb("ground", kFraction).value_or(clear.ground);
+  return makeClearSky(clear, scene, light);
+}
+
+// Returns its sun, where it has one.
+std::optional<Light> readSky(TomlTable& table, Light& light, Scene& scene, bool isBackgroundGiven) {
+  light.intensity = table.numberOrRgb("luminance", kNotNegative).value_or(vec3(1));
   light.skyRotation = static_cast<float>(table.numberAt("rotation", {-36000, 36000}, scene.time).value_or(0));
   light.samples = static_cast<uint32_t>(table.integer("samples", kSkySamples).value_or(kDefaultSkySamples));
-  light.sky = skyParts(scene.skies[light.skyMap], light.samples);
+  light.isSeen = table.boolean("visible").value_or(!isBackgroundGiven);
+  if (table.has("model")) return readClearSky(table, light, scene);
+  readEvenOrMappedSky(table, light, scene);
+  return std::nullopt;
 }
 
 }  // namespace
 
-void readLights(std::vector<TomlTable> tables, Scene& scene) {
+void readLights(std::vector<TomlTable> tables, Scene& scene, bool isBackgroundGiven) {
+  const std::size_t first = scene.lights.size();
+  std::vector<std::pair<std::size_t, Light>> suns;  // of which light
   for (TomlTable& table : tables) {
     Light light;
     light.name = readName(table, scene.lights, "light " + std::to_string(scene.lights.size() + 1));
@@ -229,14 +258,21 @@ void readLights(std::vector<TomlTable> tables, Scene& scene) {
         readArea(table, light);
         break;
       case LightType::sky:
-        readSky(table, light, scene);
+        if (auto sun = readSky(table, light, scene, isBackgroundGiven))
+          suns.emplace_back(scene.lights.size(), std::move(*sun));
         break;
     }
     const auto dimmer = static_cast<float>(table.numberAt("dimmer", {0, 1e6}, scene.time).value_or(1));
     light.intensity *= dimmer;
     light.illuminance *= dimmer;
+    if (!suns.empty() && suns.back().first == scene.lights.size()) suns.back().second.illuminance *= dimmer;
     table.finish();
     scene.lights.push_back(light);
+  }
+  // Before the tables' lights, so that these are the last ones, in their order.
+  for (std::size_t i = 0; i < suns.size(); ++i) {
+    scene.lights[i + suns[i].first].sun = static_cast<uint32_t>(first + i);
+    scene.lights.insert(scene.lights.begin() + static_cast<std::ptrdiff_t>(first + i), suns[i].second);
   }
 }
 

@@ -95,6 +95,13 @@ std::optional<std::string> TomlTable::text(const std::string& key) {
   return value;
 }
 
+std::optional<bool> TomlTable::boolean(const std::string& key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (!node->is_boolean()) fail(key, "must be true or false");
+  return node->as_boolean()->get();
+}
+
 std::optional<double> TomlTable::number(const std::string& key, Range range) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;

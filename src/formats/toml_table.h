@@ -36,6 +36,7 @@ class TomlTable {
   void setName(std::string name) { name_ = std::move(name); }
 
   std::optional<std::string> text(const std::string& key);
+  std::optional<bool> boolean(const std::string& key);
   std::optional<double> number(const std::string& key, Range range = kAnyNumber);
   std::optional<int64_t> integer(const std::string& key, Range range);
   std::optional<vec2> vector2(const std::string& key, Range range = kAnyNumber);

@@ -5,7 +5,7 @@
 namespace nephroid {
 namespace {
 
-constexpr uint32_t kMethod = 4;  // one more whenever a pass computes something else
+constexpr uint32_t kMethod = 5;  // one more whenever a pass computes something else
 
 class SceneHasher {
  public:
@@ -39,7 +39,7 @@ void add(SceneHasher& hasher, const Material& m) {
 void add(SceneHasher& hasher, const Light& l) {
   hasher.add(static_cast<uint32_t>(l.type), l.position, l.end, l.direction, l.intensity, l.illuminance,
              l.innerAngle, l.outerAngle, l.goboTexture, l.goboRotation, l.profile, l.u, l.v, l.skyMap,
-             l.skyRotation, l.radius, l.angle);
+             l.skyRotation, uint32_t{l.isSeen}, l.sun, l.radius, l.angle);
 }
 
 void add(SceneHasher& hasher, const Medium& m) {

@@ -31,7 +31,9 @@ vec3 fluxInBand(const StoredPhoton& photon, bool isSightDispersed, uint32_t band
 }  // namespace
 
 Sight::Sight(const Scene& sceneToSee, const Boundaries& sceneBoundaries, const Lights& sceneLights)
-    : scene_(sceneToSee), boundaries_(sceneBoundaries), lights_(sceneLights) {}
+    : scene_(sceneToSee), boundaries_(sceneBoundaries), lights_(sceneLights), skies_(sceneToSee) {
+  skies_.place(sceneToSee);
+}
 
 vec3 Sight::View::weight(const PassLight& light) const {
   return path.isDispersed ? path.throughput * light.bands[band].weight : path.throughput;
@@ -57,7 +59,8 @@ void Sight::follow(View view, const PassLight& light, Draws& draws, Seen& seen) 
     view.path.throughput *=
         boundaries_.transmittance(view.path.media.top(), view.ray.origin, view.ray.direction, length);
     if (!isHit) {
-      seen.rest += view.weight(light) * scene_.environment.background;
+      const vec3 sky = skies_.luminance(view.ray.direction, 0);
+      seen.rest += view.weight(light) * (scene_.environment.background + sky);
       return;
     }
     view.traveled += length;

@@ -1,6 +1,7 @@
 // Follows view rays through and into casters, and computes the luminance that they see.
 #pragma once
 
+#include "lights/seen_skies.h"
 #include "reference/direct.h"
 #include "reference/draws.h"
 #include "reference/photon_map.h"
@@ -8,8 +9,8 @@
 namespace nephroid {
 
 // Luminance (nit), divided by the path of the light. direct: met no caster. caustics: met a caster. shafts:
-// was scattered in the air or inside a caster. rest: background, emission of surfaces, and reflected ambient
-// light.
+// was scattered in the air or inside a caster. rest: background, skies, emission of surfaces, and reflected
+// ambient light.
 struct Seen {
   vec3 direct{0};
   vec3 caustics{0};
@@ -74,6 +75,7 @@ class Sight {
   const Scene& scene_;
   const Boundaries& boundaries_;
   const Lights& lights_;
+  SeenSkies skies_;
 };
 
 }  // namespace nephroid

@@ -4,35 +4,14 @@
 #include <array>
 #include <cmath>
 
+#include "core/colorimetry.h"
+
 namespace nephroid {
 namespace {
 
 constexpr uint32_t kSteps = 350;  // of the table, each a nanometer
 static_assert(kShortestWavelength + kSteps == kLongestWavelength);
 constexpr uint32_t kBandsOfPass = 16;
-
-float lobe(float wavelength, float middle, float below, float above) {
-  const float t = (wavelength - middle) * (wavelength < middle ? below : above);
-  return std::exp(-0.5f * t * t);
-}
-
-// CIE 1931 2 degree observer, multi-lobe fit (Wyman, Sloan and Shirley 2013, table 1).
-vec3 colorMatching(float wavelength) {
-  return {0.362f * lobe(wavelength, 442.0f, 0.0624f, 0.0374f) +
-              1.056f * lobe(wavelength, 599.8f, 0.0264f, 0.0323f) -
-              0.065f * lobe(wavelength, 501.1f, 0.0490f, 0.0382f),
-          0.821f * lobe(wavelength, 568.8f, 0.0213f, 0.0247f) +
-              0.286f * lobe(wavelength, 530.9f, 0.0613f, 0.0322f),
-          1.217f * lobe(wavelength, 437.0f, 0.0845f, 0.0278f) +
-              0.681f * lobe(wavelength, 459.0f, 0.0385f, 0.0725f)};
-}
-
-// Linear Rec. 709 from CIE XYZ (ITU-R BT.709, D65).
-vec3 rec709(vec3 xyz) {
-  return {dot(vec3(3.2404542f, -1.5371385f, -0.4985314f), xyz),
-          dot(vec3(-0.9692660f, 1.8760108f, 0.0415560f), xyz),
-          dot(vec3(0.0556434f, -0.2040259f, 1.0572252f), xyz)};
-}
 
 // Each channel's share of white light by wavelength, constant over each nanometer.
 struct Table {
@@ -42,7 +21,7 @@ struct Table {
   Table() {
     glm::dvec3 sum(0);
     for (uint32_t i = 0; i < kSteps; ++i) {
-      shares[i] = glm::max(rec709(colorMatching(kShortestWavelength + float(i) + 0.5f)), vec3(0));
+      shares[i] = glm::max(rec709FromXyz(colorMatching(kShortestWavelength + float(i) + 0.5f)), vec3(0));
       sum += glm::dvec3(shares[i]);
     }
     for (uint32_t i = 0; i < kSteps; ++i) {

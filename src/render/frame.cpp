@@ -1,6 +1,7 @@
 #include "render/frame.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
@@ -107,6 +108,7 @@ Renderer::Renderer(gpu::Device& device, SceneTransport& transport, const RenderS
       raySight_(device, hasTurbidWater_),
       waysInWater_(device, isByRays_),
       lampShadows_(device),
+      sky_(device, transport.scene()),
       directLight_(device, transport.scene(), shadowMapSizeOf(settings)),
       shafts_(device, transport.scene(), settings.size, settings.shafts),
       sums_(device, tone_) {
@@ -142,7 +144,8 @@ std::vector<PassTime> Renderer::draw(const Scene& scene) {
   std::vector<PassTime> passes;
   onHost(passes, "placement", [&] { place(scene); });
   sums_.begin();
-  const Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.traits().followsCamera);
+  Remade remade = lastScene_.replace(scene, settings_.keepsLight, technique_.traits().followsCamera);
+  remade.sight |= hasOtherSky_;
   onHost(passes, "shadow projections", [&] {
     lampShadows_.update(transport_.scene(), extents_);
     directLight_.update(scene, extents_, shafts_.lightsInAir(), lampShadows_);
@@ -151,7 +154,7 @@ std::vector<PassTime> Renderer::draw(const Scene& scene) {
   arePlanesInAirChosen_ = false;
   const bool isMetered = !scene.camera.exposure;
   sample_ = {};
-  if (isMetered || settings_.samples == 1) drawSample(vec2(0), remade, passes);
+  if (isMetered || settings_.samples == 1) drawSample(vec2(0), 1, remade, passes);
   if (isMetered) meter(passes);
   if (settings_.samples > 1) {
     places_ = samplePlaces(settings_.samples);
@@ -187,7 +190,7 @@ std::vector<PassTime> Renderer::gather(uint32_t samples) {
 // The next one of those in `places_`.
 void Renderer::addSample(const Remade& remade, std::vector<PassTime>& passes) {
   sample_ = {sums_.count(), uint32_t(places_.size())};
-  drawSample(places_.at(sample_.index), remade, passes);
+  drawSample(places_.at(sample_.index), 1 / std::sqrt(float(places_.size())), remade, passes);
   for (const PassTime& pass : addLayers()) passes.push_back(pass);
 }
 
@@ -206,14 +209,15 @@ void Renderer::meter(std::vector<PassTime>& passes) {
   arePlanesInAirChosen_ = false;
 }
 
-// Finds and lights what the pixels see at this place (pixels, from their middles).
-void Renderer::drawSample(vec2 at, Remade remade, std::vector<PassTime>& passes) {
+// Finds and lights what the pixels see at this place (pixels, from their middles), where the pixels have
+// places that are so far apart (pixels).
+void Renderer::drawSample(vec2 at, float spacing, Remade remade, std::vector<PassTime>& passes) {
   remade.sight = remade.sight || seenAt_ != at;
   if (remade.sight) {
-    look(at);
+    look(at, spacing);
     onHost(passes, "sight", [&] {
       if (isByRays_)
-        raySight_.update(transport_, view_, settings_.size, extents_);
+        raySight_.update(transport_, view_, settings_.size, extents_, sky_);
       else
         sight_.update(transport_, view_, settings_.size, extents_);
       if (hasTurbidWater_) waysInWater_.update(transport_, view_, settings_.size, extents_, casterRegion());
@@ -225,10 +229,11 @@ void Renderer::drawSample(vec2 at, Remade remade, std::vector<PassTime>& passes)
   while (!technique_.finish()) drawFrame(kShadedAlone, passes);
 }
 
-void Renderer::look(vec2 at) {
+void Renderer::look(vec2 at, float spacing) {
   seenAt_ = at;
   view_ = at == vec2(0) ? middleView_ : viewAt(middleView_, at, settings_.size);
   shafts_.look(view_);
+  sky_.look(view_, settings_.size, spacing);
   for (Surface& surface : surfaces_) surface.constants.worldToClip = view_.worldToClip;
 }
 
@@ -239,6 +244,7 @@ void Renderer::place(const Scene& scene) {
   environment_ = scene.environment;
   exposure_ = scene.camera.exposure.value_or(1.0f);
   setTone(scene.camera.tone);
+  hasOtherSky_ = sky_.update(scene);
   gpuScene_.place(scene);
   surfaces_.clear();
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {
@@ -286,10 +292,11 @@ void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
     if (shafts_) commands.pass("depths of the air", [&] { shafts_.recordDepths(commands); });
     if (remade.sight) {
       commands.pass("receivers", [&] { drawReceivers(commands); });
+      if (sky_.isSeen()) commands.pass("sky", [&] { sky_.record(commands, images_); });
       if (isByRays_)
         raySight_.record(commands, images_);
       else
-        sight_.record(commands, gpuScene_, images_);
+        sight_.record(commands, gpuScene_, images_, sky_);
     }
     if (remade.sight && lampShadows_.isAny())
       commands.pass("points to be lit", [&] {

@@ -15,6 +15,7 @@
 #include "render/sight/rays/ray_sight.h"
 #include "render/sight/sight_pass.h"
 #include "render/sight/ways_in_water.h"
+#include "render/sky/sky_pass.h"
 #include "render/view.h"
 #include "techniques/technique.h"
 #include "transport/scene_transport.h"
@@ -83,8 +84,8 @@ class Renderer {
  private:
   std::vector<PassTime> draw(const Scene& scene);
   void place(const Scene& scene);
-  void look(vec2 at);
-  void drawSample(vec2 at, Remade remade, std::vector<PassTime>& passes);
+  void look(vec2 at, float spacing);
+  void drawSample(vec2 at, float spacing, Remade remade, std::vector<PassTime>& passes);
   void addSample(const Remade& remade, std::vector<PassTime>& passes);
   void drawMean(std::vector<PassTime>& passes);
   void meter(std::vector<PassTime>& passes);
@@ -122,6 +123,7 @@ class Renderer {
   RaySight raySight_;
   WaysInWater waysInWater_;
   LampShadows lampShadows_;
+  SkyPass sky_;
   DirectLight directLight_;
   Shafts shafts_;
   SampleSums sums_;
@@ -131,6 +133,7 @@ class Renderer {
   SampleOfMany sample_;                // that is being drawn
   std::optional<vec2> seenAt_;         // the place in each pixel that the images of surfaces are of
   bool arePlanesInAirChosen_ = false;  // for this frame
+  bool hasOtherSky_ = false;           // than the frame before
 
   // Of the frame being made.
   View middleView_{}, view_{};     // of the pixels' middles, and of the sample

@@ -16,7 +16,7 @@ namespace nephroid {
 struct SeenImages {
   gpu::Image position;  // m, a = 1 where there is a receiver
   gpu::Image normal;    // unit, on the side that is seen; for what is reflected a = reflectance
-  gpu::Image albedo;    // a = material + 1 where there is a receiver, else 0
+  gpu::Image albedo;  // a = material + 1 where there is a receiver; else 0, and rgb are the skies seen (nit)
   gpu::Image
       transmittance;  // of the casters through which, or in which, it is seen; a = kSight..., 0 for none
   gpu::Image directLux;

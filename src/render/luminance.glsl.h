@@ -39,11 +39,11 @@ const float kInversePi = 0.318309886;
 struct Luminance {
   vec3 direct;    // by light that met no caster
   vec3 caustics;  // by light that met one
-  vec3 rest;      // of surfaces and the background
+  vec3 rest;      // of surfaces, the background and skies
 };
 
 Luminance luminanceOf(vec4 albedo, vec3 directLight, vec3 causticsLight) {
-  if (albedo.a == 0) return Luminance(vec3(0), vec3(0), constants.background);
+  if (albedo.a == 0) return Luminance(vec3(0), vec3(0), constants.background + albedo.rgb);
   const vec3 reflectance = albedo.rgb * kInversePi;  // 1/sr
   vec3 rest = reflectance * constants.ambient;
   if (kHasEmission) rest += constants.materials.material[uint(albedo.a) - 1].emission;

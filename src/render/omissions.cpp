@@ -53,7 +53,6 @@ std::span<const Omission> omissionsOfFrame() {
        "points, "
        "an area a grid of them",
        hasLampWithParts},
-      {"The sky itself: where nothing stands, and in glass and mirrors, the background is seen", hasSky},
       {"Shadow edges in shafts and of skies that are finer than two texels of a shadow map; there are as "
        "many "
        "texels as pixels along the picture's longer side, divided by the square root of how many points or "

@@ -135,7 +135,7 @@ std::vector<TouchingPair> touchingPairs(const Scene& scene) {
 
 void warnAboutScene(const Scene& scene, SceneReport& report) {
   auto& warnings = report.warnings;
-  warnings = meshWarnings(scene);
+  warnings = loadWarnings(scene);
   if (scene.objects.empty()) warnings.push_back("the scene has no objects");
   for (const std::string& line : missingLight(scene, std::nullopt)) warnings.push_back(line);
   if (report.droppedTriangles > 0) {

@@ -182,6 +182,15 @@ std::vector<std::string> meshWarnings(const Scene& scene) {
   return all;
 }
 
+std::vector<std::string> loadWarnings(const Scene& scene) {
+  std::vector<std::string> all;
+  if (scene.hasDefaultSky)
+    all.push_back(
+        "the scene has no light, so a clear sky and its sun light it; \"light = []\" leaves it dark");
+  for (std::string& line : meshWarnings(scene)) all.push_back(std::move(line));
+  return all;
+}
+
 std::vector<std::string> missingLight(const Scene& scene, const std::optional<LightBudget>& budget,
                                       const Sensor* sensor) {
   const std::vector<Ball> casters = castersOf(scene);

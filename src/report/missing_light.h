@@ -15,6 +15,9 @@ namespace nephroid {
 // walls too thin to bend light. A line for each mesh and kind; of many, the first ones and how many more.
 std::vector<std::string> meshWarnings(const Scene& scene);
 
+// That a scene without lights has a sky by default, and what meshWarnings says.
+std::vector<std::string> loadWarnings(const Scene& scene);
+
 // Why light does not arrive: there is none, it points elsewhere, something stands in its way, it is trapped,
 // or it lands elsewhere. `budget`: what became of it, where a technique has followed it. `sensor`: where it
 // is wanted; null: on all receivers. Empty where all is well.

@@ -209,6 +209,9 @@ void checkArea(const Part& part, const Light& light) {
 void checkSkyLight(const Part& part, const Light& light, const Scene& scene) {
   part.inRange("sky", light.skyMap, scene.skies.size());
   part.place("skyRotation", light.skyRotation);
+  part.optionalIndex("sun", light.sun, scene.lights.size());
+  if (light.sun != kNone && scene.lights[light.sun].type != LightType::directional)
+    part.fail("sun is not a directional light");
   for (const SkyPart& sky : light.sky) {
     part.unit("direction of a part of the sky", sky.direction);
     part.notNegative("illuminance of a part of the sky", sky.illuminance);

@@ -54,6 +54,8 @@ struct Light {
   uint32_t profile = kNone;      // index of a spot's profile in Scene::profiles; its peak is `intensity`
   uint32_t skyMap = kNone;       // index in Scene::skies
   float skyRotation = 0;         // degrees about +y, counterclockwise from above
+  bool isSeen = true;            // a sky: where nothing stands, in glass and in mirrors
+  uint32_t sun = kNone;          // a sky: the directional light, in Scene::lights, whose disk is seen in it
   std::vector<SkyPart> sky;      // the parts that stand for the map, before rotation and `intensity`
   bool operator==(const Light&) const = default;
 };

@@ -104,6 +104,7 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Object> objects;
   std::vector<Light> lights;
+  bool hasDefaultSky = false;  // its file has no light: it is lit by a clear sky and its sun
   std::optional<Medium> medium;
   std::vector<Sensor> sensors;
 

@@ -70,7 +70,7 @@ std::vector<Light> lightsOfFile(Scene& scene, const std::string& text) {
   then.file = scene.file;
   then.time = scene.time;
   const LentFiles lent(scene, then);
-  readLights(TomlTable(root, scene.file.string(), "").tables("light"), then);
+  readLights(TomlTable(root, scene.file.string(), "").tables("light"), then, false);
   return then.lights;
 }
 

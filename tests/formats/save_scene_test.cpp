@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "formats/scene_toml.h"
+#include "lights/clear_sky.h"
 #include "scene/dispersion.h"
 #include "support/photons.h"
 #include "water/wave_simulation.h"
@@ -98,6 +99,7 @@ Scene changed(Scene scene) {
         normalize(glm::angleAxis(0.4f, normalize(vec3(1, 2, 3))) * object.placement.rotation);
     object.placement.scale *= 1.125f;
   }
+  const std::vector<Light> before = scene.lights;
   for (Light& light : scene.lights) {
     light.position += vec3(0.3f, 0.1f, 0.2f);
     if (light.type == LightType::line) light.end += vec3(0.1f, 0.1f, 0.2f);
@@ -112,6 +114,9 @@ Scene changed(Scene scene) {
       light.intensity *= vec3(0.5f, 0.75f, 1);
     }
   }
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (const uint32_t sun = before[i].sun; sun != kNone)
+      scene.lights[sun] = sunWithSky(before[sun], before[i], scene.lights[i]);
   if (scene.medium) {
     scene.medium->extinction *= 1.5f;
     scene.medium->albedo *= 0.5f;
@@ -153,8 +158,8 @@ TEST(SavedScene, KeepsWhatIsWrittenAroundAValue) {
 
 TEST(SavedScene, AddsKeysAndSectionsThatWereNotThere) {
   const std::string text =
-      "material = [{ name = \"glass\", type = \"dielectric\" }]\n[[object]]\nshape = \"sphere\"\n"
-      "material = \"glass\" # clear\n";
+      "light = []\nmaterial = [{ name = \"glass\", type = \"dielectric\" }]\n[[object]]\nshape = "
+      "\"sphere\"\nmaterial = \"glass\" # clear\n";
   const Scene before = sceneOf(text);
   Scene after = before;
   after.camera.position.x += 1;
@@ -191,6 +196,40 @@ TEST(SavedScene, KeepsHowPicturesAreShown) {
   EXPECT_EQ(saved(camera + "ev100 = 10\n", {}, ToneCurve::aces).find("ev100"), std::string::npos);
   EXPECT_EQ(saved(camera + "exposure = \"auto\"\n", {}, ToneCurve::neutral),
             camera + "exposure = \"auto\"\n");
+}
+
+TEST(SavedScene, SkiesAreSeenAsBefore) {
+  const std::string text =
+      "[[light]]\ntype = \"sky\"\nluminance = 3\n[[light]]\nname = \"day\"\ntype = \"sky\"\nmodel = "
+      "\"clear\"\nsun = [30, 40]\n";
+  const Scene before = sceneOf(text);
+  Scene after = before;
+  ASSERT_EQ(after.lights.size(), 3u);
+  after.lights[1].isSeen = false;
+  after.lights[2].intensity = vec3(0.5f);
+  after.lights[2].skyRotation = 25;
+  after.lights[0] = sunWithSky(before.lights[0], before.lights[2], after.lights[2]);
+  after.environment.background = vec3(7);
+  const SavedScene saved = savedScene(text, before, after);
+  EXPECT_TRUE(saved.notSaved.empty());
+  const Scene again = sceneOf(saved.text);
+  EXPECT_FALSE(again.lights[1].isSeen);
+  EXPECT_TRUE(again.lights[2].isSeen);
+  EXPECT_EQ(again.environment.background, vec3(7));
+  EXPECT_LT(distance(again.lights[0].direction, after.lights[0].direction), 1e-5f);
+  EXPECT_LT(distance(again.lights[0].illuminance, after.lights[0].illuminance), 1);
+  // A sun that was turned by itself is not in the file.
+  after.lights[0].direction = vec3(0, -1, 0);
+  EXPECT_EQ(savedScene(text, before, after).notSaved, std::vector<std::string>{"day sun"});
+}
+
+TEST(SavedScene, TellsThatAmbientLightDoesNotGoWithTheDefaultSky) {
+  const std::string text = "[camera]\nposition = [0, 1, 3]\n";
+  const Scene before = sceneOf(text);
+  Scene after = before;
+  after.environment.ambient = vec3(1);
+  EXPECT_EQ(savedScene(text, before, after).notSaved.size(), 1u);
+  EXPECT_EQ(savedScene(text, before, after).text, text);
 }
 
 TEST(SavedScene, LampsKeepTheirSize) {

@@ -38,7 +38,7 @@ TEST_F(MissingLight, AGoodSceneHasNothingToBeSaid) {
 }
 
 TEST_F(MissingLight, LampsThatReachNothingAreNamed) {
-  expectPart(said(kGood), "no light");
+  expectPart(said("light = []\n" + kGood), "no light");
   expectPart(said(kGood + "[[light]]\ntype = \"point\"\nposition = [0, 3, 0]\nintensity = 0\n"),
              "intensity of 0");
   const std::string spot =

@@ -291,8 +291,17 @@ void SightPass::lookAtReflected(gpu::CommandList& commands, const SeenCaster& ca
        images.seen[kSeenReflected], isFirst);
 }
 
-void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images) {
+void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images,
+                       const SkyPass& sky) {
   if (casters_.empty()) return;
+  const auto addSky = [&](const SeenCaster& caster, uint32_t way, const SeenImages& seen) {
+    if (sky.isSeen())
+      commands.pass("sky", [&] {
+        sky.record(commands, way,
+                   {caster.constants.number, position_, images.casterNormal, direction_, caster.region},
+                   seen);
+      });
+  };
   commands.pass("casters", [&] { drawCasters(commands, casters_, 0, images); });
   bool isFirstReflected = true, isFirstDispersed = true;
   for (const SeenCaster& caster : casters_) {
@@ -306,11 +315,13 @@ void SightPass::record(gpu::CommandList& commands, const GpuScene& gpuScene, con
         lookThrough(commands, caster, channel, images.seen[channel], isFirst);
         if (channel == 2) isFirstDispersed = false;
       });
+      addSky(caster, kSkyThrough, images.seen[channel]);
       if (channel > 0 || caster.isMirror) continue;
       commands.pass("reflected by casters", [&] {
         lookAtReflected(commands, caster, images, isFirstReflected);
         isFirstReflected = false;
       });
+      addSky(caster, kSkyReflected, images.seen[kSeenReflected]);
     }
   }
 }

@@ -17,6 +17,7 @@
 #include "render/sight/settings.h"
 #include "render/sight/slices.h"
 #include "render/sight/ways_in_water.h"
+#include "render/sky/sky_pass.h"
 #include "render/view.h"
 #include "techniques/lattice.h"
 #include "transport/scene_transport.h"
@@ -57,7 +58,8 @@ class SightPass {
 
   // Replaces receivers in `images` by those that casters show, and draws casters into the depth image.
   // Records its own passes.
-  void record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images);
+  void record(gpu::CommandList& commands, const GpuScene& gpuScene, const FrameImages& images,
+              const SkyPass& sky);
 
  private:
   // A caster that is in the picture.

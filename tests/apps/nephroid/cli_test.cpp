@@ -196,6 +196,38 @@ TEST_F(SceneCommand, TheSameCommandWritesTheSameBytes) {
   EXPECT_GT(readAll(folder / "a.exr").size(), 0u);
 }
 
+TEST_F(SceneCommand, ASceneWithoutLightSaysWhatLightsIt) {
+  std::string dark = kFloor;
+  const std::size_t light = dark.find("[[light]]");
+  dark.erase(light, dark.find("[[sensor]]") - light);
+  const auto told = [&](const std::string& scene) {
+    write("dark.toml", scene);
+    const ProgramResult measured =
+        runProgram({"measure", at("dark.toml"), "--sensor", "floor", "-o", at("out.exr"), "--quiet",
+                    "--technique", "reference", "--passes", "1"});
+    EXPECT_EQ(measured.status, 0) << measured.errors;
+    const ProgramResult info = runProgram({"info", at("dark.toml")});
+    constexpr auto kLine = "the scene has no light, so a clear sky and its sun light it";
+    EXPECT_EQ(measured.errors.find(kLine) == std::string::npos, info.output.find(kLine) == std::string::npos);
+    EXPECT_EQ(measured.errors.find(kLine), measured.errors.rfind(kLine));
+    return measured.errors.find(kLine) != std::string::npos;
+  };
+  EXPECT_TRUE(told(dark));
+  EXPECT_FALSE(told("light = []\n" + dark));
+  EXPECT_FALSE(told(kFloor));
+}
+
+TEST_F(SceneCommand, AWrongSkyIsOneLine) {
+  for (const char* keys :
+       {"sun = [0, 100]", "sun = [0, 40]\nturbidity = 20", "sun = [0, 40]\nturbidty = 3", ""}) {
+    write("sky.toml", std::string(kFloor) + "[[light]]\ntype = \"sky\"\nmodel = \"clear\"\n" + keys + "\n");
+    const ProgramResult result = runProgram({"render", at("sky.toml"), "-o", at("out.png")});
+    EXPECT_EQ(result.status, 2) << keys;
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+    EXPECT_NE(result.errors.find("sky.toml:"), std::string::npos) << result.errors;
+  }
+}
+
 TEST_F(SceneCommand, WrongInputLeavesNothingBehind) {
   write("broken.toml", "[camera\nposition = 1");
   const auto measure = [&](std::vector<std::string> changed) {

@@ -27,7 +27,7 @@ RaySight::RaySight(gpu::Device& device, bool hasTurbidWater)
 }
 
 void RaySight::update(SceneTransport& transport, const View& view, uvec2 pictureSize,
-                      const std::vector<MeshExtent>& extents) {
+                      const std::vector<MeshExtent>& extents, const SkyPass& sky) {
   const Scene& scene = transport.scene();
   std::vector<gpu::Region> regions;
   for (const Object& object : scene.objects) {
@@ -39,6 +39,9 @@ void RaySight::update(SceneTransport& transport, const View& view, uvec2 picture
   const std::vector<const Material*> materials = materialsOf(scene);
   RaySightInput input{scene, transport.rayScene(), materials, view, {}, pictureSize, regions};
   input.trees.tellsWaysBeyond = hasTurbidWater_;
+  input.trees.tellsSky = sky.isSeen();
+  input.skies = &sky.skies();
+  input.sampleSpacing = sky.spacing();
   input.media = mediaAround(transport.rayScene(), materials, view.eye);
   seeByRays(input, seen_);
   // The points' last row is full.

@@ -9,6 +9,7 @@
 #include "render/shadow_maps.h"
 #include "render/sight/rays/seen_by_rays.h"
 #include "render/sight/ways_in_water.h"
+#include "render/sky/sky_pass.h"
 #include "render/view.h"
 #include "techniques/technique.h"
 #include "transport/scene_transport.h"
@@ -25,7 +26,7 @@ class RaySight {
   // The host's work, for the scene in which `transport` was placed. `extents`: of its meshes. The device must
   // not be using anything of this object.
   void update(SceneTransport& transport, const View& view, uvec2 pictureSize,
-              const std::vector<MeshExtent>& extents);
+              const std::vector<MeshExtent>& extents, const SkyPass& sky);
 
   // The region of the picture that holds all casters.
   const gpu::Region& region() const { return seen_.region; }

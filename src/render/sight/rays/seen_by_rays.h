@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "lights/seen_skies.h"
 #include "render/sight/rays/view_tree.h"
 #include "render/view.h"
 
@@ -19,7 +20,9 @@ struct RaySightInput {
   uvec2 size{0};                               // pixels of the picture
   std::span<const gpu::Region> casterRegions;  // outside all of these no pixel shows a caster
   TreeSettings trees{};
-  bool interpolates = true;  // where neighbors agree; otherwise each pixel is traced
+  bool interpolates = true;          // where neighbors agree; otherwise each pixel is traced
+  const SeenSkies* skies = nullptr;  // with trees.tellsSky
+  float sampleSpacing = 1;           // pixels between the samples of a pixel
 };
 
 struct RaySightCounts {
@@ -35,8 +38,8 @@ struct SeenByRays {
   gpu::Region region;  // of the picture: holds all pixels that show casters; row by row
   // The normal of the caster, on the viewer's side; a = 1 where there is one, -1 where its inside is seen.
   std::vector<vec4> casterNormals;
-  // rgb: what the pixel shows (nit) by no light: background, ambient light, and surfaces that shine. a: its
-  // depth as in the depth image, 0 where there is no caster.
+  // rgb: what the pixel shows (nit) by no light: background, skies, ambient light, and surfaces that shine.
+  // a: its depth as in the depth image, 0 where there is no caster.
   std::vector<vec4> rest;
   std::vector<uvec2> ranges;  // the first of the pixel's points, and their number
   // With trees.tellsWaysBeyond, of the pixels: where their ray meets the caster (m; a = its object + 1, 0

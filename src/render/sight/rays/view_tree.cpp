@@ -184,6 +184,13 @@ void ViewTracer::meet(const Branch& arriving, const Hit& hit, Work& work) const 
     } else if (medium == kNone || extinctions_[medium] == vec3(0)) {
       tree.background += branch.weight;
       work.weights[branch.tree] += branch.weight;
+      if (settings_.tellsSky) {
+        SightEnd end;
+        end.position = branch.ray.direction;
+        end.weight = branch.weight;
+        end.ways = extended(branch.ways, uint32_t(Event::missed));
+        addEnd(branch, end, work);
+      }
     }
     return;
   }
@@ -203,8 +210,15 @@ void ViewTracer::meet(const Branch& arriving, const Hit& hit, Work& work) const 
   }
 }
 
-void ViewTracer::meetReceiver(const Branch& branch, const Hit& hit, Work& work) const {
+void ViewTracer::addEnd(const Branch& branch, const SightEnd& end, Work& work) {
   SightTree& tree = work.result->trees[branch.tree];
+  ++tree.count;
+  if (!end.isFaint()) ++tree.strong;
+  work.ends.push_back(end);
+  work.treeOfEnd.push_back(branch.tree);
+}
+
+void ViewTracer::meetReceiver(const Branch& branch, const Hit& hit, Work& work) const {
   SightEnd end;
   end.position = hit.flatPosition;
   end.normal = dot(branch.ray.direction, hit.geometricNormal) < 0 ? hit.normal : -hit.normal;
@@ -213,13 +227,11 @@ void ViewTracer::meetReceiver(const Branch& branch, const Hit& hit, Work& work) 
   end.texcoord = texcoordAt(scene_, hit);
   end.object = hit.object;
   end.ways = extended(branch.ways, hit, Event::arrived);
-  ++tree.count;
   if (!end.isFaint()) {
+    SightTree& tree = work.result->trees[branch.tree];
     tree.ways = extended(tree.ways, end.ways);
-    ++tree.strong;
   }
-  work.ends.push_back(end);
-  work.treeOfEnd.push_back(branch.tree);
+  addEnd(branch, end, work);
 }
 
 void ViewTracer::meetMirror(const Branch& branch, const Hit& hit, Work& work) const {

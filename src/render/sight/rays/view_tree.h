@@ -14,14 +14,15 @@ namespace nephroid {
 // Weight of a way whose end may as well be that of another pixel nearby.
 inline constexpr float kFaintWeight = 3e-3f;
 
-// The receiver at the end of one of a view ray's ways. World space.
+// The receiver at the end of one of a view ray's ways, or the sky there. World space.
 struct SightEnd {
-  vec3 position{0};  // m
-  vec3 normal{0};    // unit, on the side that is seen
-  vec3 weight{0};    // the part of its radiance that comes to the eye
+  vec3 position{0};      // m; of the sky the unit vector toward it
+  vec3 normal{0, 1, 0};  // unit, on the side that is seen
+  vec3 weight{0};        // the part of its radiance that comes to the eye
   vec2 texcoord{0};
-  uint32_t object = 0;
-  uint32_t ways = 0;  // equal where the same smooth surfaces lie on the way, and at its end
+  uint32_t object = kNone;  // kNone: the sky
+  uint32_t ways = 0;        // equal where the same smooth surfaces lie on the way, and at its end
+  bool isSky() const { return object == kNone; }
   bool isFaint() const { return std::max({weight.x, weight.y, weight.z}) < kFaintWeight; }
 };
 
@@ -46,6 +47,7 @@ struct WayBeyond {
 struct TreeSettings {
   float leastWeight = 7e-4f;  // of a way, of what its tree shows in all; weaker ones are left out
   bool tellsWaysBeyond = false;
+  bool tellsSky = false;  // ways that meet nothing have ends too
 };
 
 struct SightTrees {
@@ -83,6 +85,7 @@ class ViewTracer {
   static void makeUp(const Work& work);
   bool isKept(const Branch& branch, const Work& work) const;
   void meet(const Branch& branch, const Hit& hit, Work& work) const;
+  static void addEnd(const Branch& branch, const SightEnd& end, Work& work);
   void meetReceiver(const Branch& branch, const Hit& hit, Work& work) const;
   void meetMirror(const Branch& branch, const Hit& hit, Work& work) const;
   void meetThinWall(const Branch& branch, const Hit& hit, Work& work) const;
