@@ -20,6 +20,7 @@ if(NOT embree_FOUND)
 endif()
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 find_path(VOLK_INCLUDE_DIR volk.h REQUIRED)
+find_path(STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 # Not required: without it no OpenVDB files are read.
 find_library(OPENVDB_LIBRARY openvdb)

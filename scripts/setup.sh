@@ -10,7 +10,7 @@ packages=(
   libvulkan-dev libvulkan-volk-dev libspirv-cross-c-shared-dev mesa-vulkan-drivers
   libembree-dev libtbb-dev libglm-dev
   libtinygltf-dev libtinyobjloader-dev libassimp-dev libopenmesh-dev libtomlplusplus-dev
-  libopenexr-dev libpng-dev libcli11-dev nlohmann-json3-dev libxxhash-dev
+  libopenexr-dev libpng-dev libstb-dev libcli11-dev nlohmann-json3-dev libxxhash-dev
   libfftw3-dev                                  # the sea's spectrum
   libopenvdb-dev libboost-dev                   # density grids of the air
   libglfw3-dev libimgui-dev                     # the viewer's window

@@ -36,6 +36,11 @@ ByteImage readPng(const std::filesystem::path& file, uint32_t largestSide = 1u <
 float linearFromSrgb(float encoded);
 float srgbFromLinear(float linear);
 
+// Whether a file begins as a Radiance image does.
+bool isRadiance(const std::filesystem::path& file);
+// Radiance image (.hdr, RGBE), rows from the top down: channels R, G, B.
+Image readRadiance(const std::filesystem::path& file);
+
 // Portable float map: channels R, G, B, or Y where it has one. The first row of the file is the first row of
 // the image.
 Image readPfm(const std::filesystem::path& file);

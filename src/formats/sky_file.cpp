@@ -7,7 +7,7 @@
 namespace nephroid {
 
 SkyMap loadSky(const std::filesystem::path& file) {
-  const Image image = readExr(file);
+  const Image image = isRadiance(file) ? readRadiance(file) : readExr(file);
   SkyMap sky{file.string(), {image.width, image.height}, {}};
   sky.luminance.resize(std::size_t{image.width} * image.height);
   for (int c = 0; c < 3; ++c) {

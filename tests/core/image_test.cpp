@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -137,6 +138,49 @@ TEST(Pfm, RefusesWhatIsNotOne) {
     writeText(folder / "a.pfm", text);
     EXPECT_THROW(readPfm(folder / "a.pfm"), InputError) << text;
   }
+}
+
+// Of `width` times `height` pixels, in runs: all of them (1, 0.5, 2).
+std::string radianceOfRuns(int width, int height) {
+  std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
+                     std::to_string(width) + "\n";
+  for (int row = 0; row < height; ++row) {
+    text += {2, 2, char(width >> 8), char(width & 255)};
+    for (const int value : {64, 32, 128, 130})  // 64 / 256 x 2^(130 - 128), and so on
+      for (int rest = width; rest > 0; rest -= 127) text += {char(128 + std::min(rest, 127)), char(value)};
+  }
+  return text;
+}
+
+TEST(Radiance, RunsAndPlainRowsAreRead) {
+  const TemporaryFolder folder;
+  writeText(folder / "a.hdr", radianceOfRuns(300, 3));
+  ASSERT_TRUE(isRadiance(folder / "a.hdr"));
+  const Image image = readRadiance(folder / "a.hdr");
+  ASSERT_EQ(image.width, 300u);
+  ASSERT_EQ(image.height, 3u);
+  EXPECT_EQ(*image.find("R"), std::vector<float>(900, 1.0f));
+  EXPECT_EQ(*image.find("G"), std::vector<float>(900, 0.5f));
+  EXPECT_EQ(*image.find("B"), std::vector<float>(900, 2.0f));
+
+  writeText(folder / "b.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") +
+                                  std::string("\x80\x40\x20\x81\x20\x40\x80\x80", 8));
+  const Image plain = readRadiance(folder / "b.hdr");
+  EXPECT_EQ(*plain.find("R"), (std::vector<float>{1, 0.125f}));
+  EXPECT_EQ(*plain.find("B"), (std::vector<float>{0.25f, 0.5f}));
+}
+
+TEST(Radiance, FilesThatEndTooEarlyAreRefused) {
+  const TemporaryFolder folder;
+  const std::string whole = radianceOfRuns(300, 3);
+  for (std::size_t size = 2; size < whole.size(); ++size) {
+    writeText(folder / "a.hdr", whole.substr(0, size));
+    EXPECT_THROW(readRadiance(folder / "a.hdr"), InputError) << size;
+  }
+  writeText(folder / "a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32768 +X 32767\n");
+  EXPECT_THROW(readRadiance(folder / "a.hdr"), InputError);  // and takes no memory for them
+  writeText(folder / "a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd");
+  EXPECT_THROW(readRadiance(folder / "a.hdr"), InputError);
 }
 
 }  // namespace
