@@ -161,6 +161,26 @@ TEST(RayMeshBounds, ChaoticLightIsKept) {
   EXPECT_LT((stats.lostFlux + stats.droppedFlux) / stats.incidentFlux, double(settings.error));
 }
 
+// The pool gets 290 times the light that the ball gets.
+TEST(RayMeshBounds, ABallBesideAPoolHasTheLightOfABallAlone) {
+  const std::vector<CountedTruth> truths = shippedTruths();
+  const auto truth = std::ranges::find(truths, "ball-sun-past", &CountedTruth::name);
+  Scene scene = loadScene(truth->scene);
+  Object pool;
+  pool.mesh = uint32_t(scene.meshes.size());
+  pool.material =
+      uint32_t(std::ranges::find(scene.materials, "glass", &Material::name) - scene.materials.begin());
+  pool.placement.translation = {20, 1, 0};
+  scene.meshes.push_back(makeWater({{12, 12}, {64, 64}, {{0.01f, 0.8f, {1, 0.3f}, 0, 0}}}, 0));
+  scene.objects.push_back(pool);
+  const RayScene rays(scene);
+  Progress progress;
+  RayMesh mesh;
+  const std::vector<vec3> lux =
+      lightOnSensor(scene, rays, scene.sensors.at(0), {.error = 0.01f}, mesh, progress);
+  EXPECT_LT(errorsAgainst(truth->lux, lux).withoutWorst, 0.01 + truth->spread);
+}
+
 // A wave of 100,000 triangles under an area lamp.
 TEST(RayMeshBounds, WavesUnderAnAreaLampFit) {
   Scene scene = ballOverFloor(0.8f, {0, 3, 0});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "beams/first_cuts.h"
 #include "core/index_range.h"
@@ -45,6 +46,7 @@ void SheetMemory::giveBackLarge() {
 LightSheets::LightSheets(const Scene& sceneOf, const RayScene& rayScene, const RayMeshSettings& settingsOf,
                          std::span<const CasterLight> lightsOf, MediaTable& media, SheetMemory& memoryOf)
     : tree(sceneOf, rayScene, settingsOf.paths, settingsOf.target, media),
+      scales(sceneOf, settingsOf),
       scene_(sceneOf),
       rays_(rayScene),
       settings_(settingsOf),
@@ -194,6 +196,7 @@ std::vector<vec3> LightSheets::fluxesOntoTriangles(const CasterLight& light) con
 void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
   std::vector<Sheet> forced[kMaximumForcedCuts + 1];
   std::vector<uint32_t> cornerOf;
+  std::vector<double> lightFluxes(lights_.size());
   for (uint32_t index = 0; index < uint32_t(lights_.size()); ++index) {
     const Mesh& mesh = scene_.meshOf(scene_.objects[lights_[index].object]);
     const float extent = boundingBox(mesh).diagonal();
@@ -208,7 +211,7 @@ void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
       sheet.weights[0] = vec2(0);
       sheet.weights[1] = vec2(1, 0);
       sheet.weights[2] = vec2(0, 1);
-      stats.incidentFlux += double(luminanceOf(sheet.flux));
+      lightFluxes[index] += double(luminanceOf(sheet.flux));
       for (int i = 0; i < 3; ++i) {
         uint32_t& corner = cornerOf[mesh.triangles[sheet.triangle][i]];
         if (corner == kNone) corner = addCorner({index, sheet.triangle, sheet.weights[i]});
@@ -218,6 +221,7 @@ void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
       (cuts == 0 ? sheets : forced[cuts]).push_back(sheet);
     }
   }
+  stats.incidentFlux = std::accumulate(lightFluxes.begin(), lightFluxes.end(), 0.0);
   // A list that grows is there twice while it is copied.
   tree.nodes.reserve(kNodesOfCorner * pending_.size());
   settleCorners();
@@ -234,6 +238,7 @@ void LightSheets::addFirstSheets(std::vector<Sheet>& sheets) {
   }
   cutWide(sheets);
   firstSheets_ = sheets.size();
+  fullFluxes_ = scales.fullFluxes(lights_, lightFluxes);
 }
 
 // Those that a lamp close by sees under a wide angle.

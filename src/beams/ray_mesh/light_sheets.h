@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "beams/ray_mesh/caster_light.h"
+#include "beams/ray_mesh/caster_scales.h"
 #include "beams/ray_mesh/edge_table.h"
 #include "beams/ray_mesh/facet_rims.h"
 #include "beams/ray_mesh/ray_mesh.h"
@@ -109,9 +110,11 @@ class LightSheets {
            3.0f;
   }
   std::size_t bytes() const;
+  uint32_t casterOf(const Sheet& sheet) const { return lights_[sheet.light].object; }
   const LampSpread& spreadOf(const Sheet& sheet) const { return lights_[sheet.light].spread; }
 
   PathTree tree;
+  CasterScales scales;
   RayMeshStats stats;
 
  private:
@@ -142,6 +145,7 @@ class LightSheets {
   bool carriesNone(uint32_t node) const;
   bool isElsewhere(const Sheet& sheet) const;
   bool isFacetedAt(const PathNode& node) const;
+  float fullFlux(const Sheet& sheet) const { return fullFluxes_[sheet.light]; }
   float lightestParted(const Sheet& sheet) const;
   float mostCarried(const Sheet& sheet) const;
 
@@ -151,6 +155,7 @@ class LightSheets {
   std::span<const CasterLight> lights_;
   std::vector<std::optional<FacetRims>> rims_;  // of the meshes of casters
   std::size_t firstSheets_ = 0;
+  std::vector<float> fullFluxes_;  // lm, of the lights: what their sheets have to be compared with
   SheetMemory& memory_;
   std::vector<NewCorner>& pending_;
   std::vector<uint32_t>& firstOfCorner_;  // node; kNone until it is settled

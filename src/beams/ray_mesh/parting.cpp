@@ -71,7 +71,7 @@ float LightSheets::lightestParted(const Sheet& sheet) const {
   const float most = float(settings_.mostBeams);
   const float ofBeam = std::min(1.0f, kBeamsOfFirst * float(firstSheets_) / most) / most;
   const int spread = std::clamp(int(sheet.generation) - 2, 0, 4);
-  return std::max(kLight * settings_.error, ofBeam) * float(stats.incidentFlux) * float(1 << (2 * spread));
+  return std::max(kLight * settings_.error, ofBeam) * fullFlux(sheet) * float(1 << (2 * spread));
 }
 
 // How far apart paths are, over how far apart they began.
@@ -106,7 +106,7 @@ bool LightSheets::isCutAhead(const Sheet& sheet) const {
   const PathNode& node = tree.nodes[sheet.node[0]];
   if (sheet.cuts >= kMostCuts || node.generation + 1 < kFirstChaotic) return false;
   const float least = std::max(kHeavyAhead * settings_.error, kBeamsAhead / float(settings_.mostBeams));
-  return luminanceOf(carried(sheet)) > least * float(stats.incidentFlux) &&
+  return luminanceOf(carried(sheet)) > least * fullFlux(sheet) &&
          spreadAt({sheet.node[0], sheet.node[1], sheet.node[2]}) > kSpreadOfChaos;
 }
 
@@ -115,8 +115,8 @@ bool LightSheets::isCutAhead(const Sheet& sheet) const {
 void LightSheets::part(std::span<const Sheet> mixed, std::vector<Sheet>& next) {
   if (mixed.empty()) return;
   std::vector<Sheet> heavy, clipped, ones, chaotic;
-  const float leastCut = kHeavy * settings_.error * float(stats.incidentFlux);
   for (const Sheet& sheet : mixed) {
+    const float leastCut = kHeavy * settings_.error * fullFlux(sheet);
     uint32_t signature[3];
     for (int i = 0; i < 3; ++i) signature[i] = tree.nodes[sheet.node[i]].signature;
     const float most = mostCarried(sheet);

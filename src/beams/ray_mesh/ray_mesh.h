@@ -19,9 +19,9 @@ struct RayMeshSettings {
   float error = 0.01f;  // that the light may have, root mean square over the mean of what is lit
   Paths paths = Paths::all;
   PathTarget target;
-  // m: no receiver's point shows more; and m for each from an eye there, up to the most.
+  // m: no receiver's point shows more; and m for each from an eye there, up to a part of the caster's size.
   float detail = 0.01f;
-  float mostDetail = 1e30f;
+  float mostDetailOfCaster = 1e30f;
   float detailPerMeter = 0;
   vec3 eye{0};
   float detailsOfPoint = 1;  // across a receiver's point, over which light chosen by lot is evened out

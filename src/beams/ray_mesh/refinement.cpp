@@ -12,6 +12,8 @@ namespace nephroid {
 namespace {
 
 constexpr int kMostLevels = 16;
+// Of the most beams, what can be added to those of the casters' own triangles, however many they are.
+constexpr uint64_t kPartForCuts = 4;
 // A sheet whose corners differ more than this in density is taken to have one density alone.
 constexpr float kSteep = 2.5f;
 // Of the detail that a receiver's point shows: light that is no more off is where it should be.
@@ -50,12 +52,18 @@ mat3 tangentFrame(vec3 normal, float radius) {
   return {radius * u, radius * (-0.5f * u + 0.866f * v), radius * (-0.5f * u - 0.866f * v)};
 }
 
+// What lies in an area (m2), or is in it in all, for each receiver's point.
+double pointsOf(const Landing& landing, float area) {
+  return double(area) / (double(landing.point) * double(landing.point));
+}
+
 }  // namespace
 
 Refinement::Refinement(LightSheets& sheetsOf, const RayMeshSettings& settingsOf, SheetMemory& memoryOf)
     : sheets_(sheetsOf), settings_(settingsOf), memory_(memoryOf) {}
 
 void Refinement::run(std::vector<Sheet>& landed, Progress& progress) {
+  mostBeams_ = std::max(settings_.mostBeams, landed.size() + settings_.mostBeams / kPartForCuts);
   for (int level = 0;; ++level) {
     progress.advance();
     describe(landed);
@@ -70,7 +78,7 @@ void Refinement::run(std::vector<Sheet>& landed, Progress& progress) {
 
 bool Refinement::isFull(const std::vector<Sheet>& landed) {
   RayMeshBound& bound = sheets_.stats.bound;
-  if (landed.size() >= settings_.mostBeams) bound = RayMeshBound::beams;
+  if (landed.size() >= mostBeams_) bound = RayMeshBound::beams;
   if (sheets_.bytes() > settings_.mostBytes) bound = RayMeshBound::bytes;
   return bound != RayMeshBound::none;
 }
@@ -93,10 +101,9 @@ Landing Refinement::landingOf(const Sheet& sheet) const {
   landing.longest = std::max(
       {distance(a.position, b.position), distance(b.position, c.position), distance(c.position, a.position)});
   landing.width = landing.longest > 0 ? doubled / landing.longest : 0;
-  landing.detail = std::clamp(settings_.detailPerMeter * distance(a.position, settings_.eye),
-                              settings_.detail, std::max(settings_.mostDetail, settings_.detail));
+  landing.point = sheets_.scales.pointAt(a.position, sheets_.casterOf(sheet));
   landing.blur = blurOf(sheet);
-  landing.detail = std::max(landing.detail, kDetailOfBlur * landing.blur.x);
+  landing.detail = std::max(landing.point, kDetailOfBlur * landing.blur.x);
   landing.isMirrored = dot(across, a.direction) < 0;
   if (settings_.target.isPlane) {
     const PlaneGrid& grid = settings_.target.plane;
@@ -171,40 +178,47 @@ void Refinement::include(const Sheet& sheet, const Landing& landing, int sign) {
   }
 }
 
-// m2 where nine tenths of the light land, the densest first.
-double Refinement::areaOfMost(double flux) const {
+// Where nine tenths of what points get of the light land, the densest first; how much of it all points get
+// in the mean.
+void Refinement::describeLit() {
   constexpr int kBuckets = 1024;
   constexpr float kBucketsAnOctave = 16, kMiddle = kBuckets / 2;
-  double areaIn[kBuckets] = {}, fluxIn[kBuckets] = {};
-  double whole = 0;
-  for (const Landing& landing : landings_) whole += double(landing.area);
-  const float unit = float(flux / std::max(whole, 1e-30));
+  double areaIn[kBuckets] = {}, pointsIn[kBuckets] = {}, lightIn[kBuckets] = {};
+  double points = 0, light = 0;  // light: lm/m2, times points
+  for (const Landing& landing : landings_) {
+    if (!landing.isWanted) continue;
+    points += pointsOf(landing, landing.area);
+    light += pointsOf(landing, landing.luminance);
+  }
+  const float unit = float(light / std::max(points, 1e-30));
   for (const Landing& landing : landings_) {
     const float density = landing.luminance / std::max(landing.area, landing.detail * landing.detail);
-    if (!(density > 0)) continue;
+    if (!(density > 0) || !landing.isWanted) continue;
     const float bucket = kMiddle - kBucketsAnOctave * std::log2(density / unit);
     const int i = int(std::clamp(bucket, 0.0f, float(kBuckets - 1)));
     areaIn[i] += double(landing.area);
-    fluxIn[i] += double(landing.luminance);
+    pointsIn[i] += pointsOf(landing, landing.area);
+    lightIn[i] += pointsOf(landing, landing.luminance);
   }
   double area = 0, sum = 0;
-  for (int i = 0; i < kBuckets && sum <= 0.9 * flux; ++i) {
+  litPoints_ = 0;
+  for (int i = 0; i < kBuckets && sum <= 0.9 * light; ++i) {
     area += areaIn[i];
-    sum += fluxIn[i];
+    litPoints_ += pointsIn[i];
+    sum += lightIn[i];
   }
-  return area;
+  if (settings_.area > 0) {
+    area = double(settings_.area);
+    litPoints_ = area / (double(settings_.detail) * double(settings_.detail));
+  }
+  litArea_ = float(area);
+  mean_ = light / std::max(litPoints_, 1e-30);
 }
 
-// What the squares of the error, times the areas where they are made, may add up to: (lm/m2)^2 m2.
+// What the squares of the error, times the points that have them, may add up to: (lm/m2)^2.
 double Refinement::allowedSquares() {
-  double flux = 0;
-  for (const Landing& landing : landings_)
-    if (landing.isWanted) flux += double(landing.luminance);
-  double area = double(settings_.area);
-  if (area <= 0) area = areaOfMost(flux);
-  litArea_ = float(area);
-  mean_ = flux / std::max(area, 1e-30);
-  return std::pow(double(settings_.error) * mean_, 2) * area;
+  describeLit();
+  return std::pow(double(settings_.error) * mean_, 2) * litPoints_;
 }
 
 // By how much the density of the light changes across a sheet, over its mean; a fold has no density.
@@ -237,7 +251,7 @@ double Refinement::errorSquares(const Sheet& sheet, const Landing& landing) cons
   const float area = landing.area + detail * landing.longest + detail * detail;
   // Where light is focused, it may be off by a part of itself.
   const double density = std::min(double(landing.luminance) / double(area), kFocus * mean_);
-  return std::pow(density * double(relative), 2) * double(area);
+  return std::pow(density * double(relative), 2) * pointsOf(landing, area);
 }
 
 double Refinement::judge(const std::vector<Sheet>& landed) {
@@ -270,7 +284,7 @@ bool Refinement::cutWorst(std::vector<Sheet>& landed, double squares, Progress& 
   int last = kBuckets;  // the first that is left as it is
   while (last > 1 && left >= inBucket[last - 1]) left -= inBucket[--last];
   // Each that is cut adds three.
-  std::size_t room = (settings_.mostBeams - std::min<uint64_t>(landed.size(), settings_.mostBeams)) / 3 + 1;
+  std::size_t room = (mostBeams_ - std::min<uint64_t>(landed.size(), mostBeams_)) / 3 + 1;
   for (int bucket = 0; bucket < last; ++bucket) {
     if (countInBucket[bucket] > room && bucket > 0) {
       last = bucket;
@@ -339,7 +353,7 @@ double Refinement::chanceSquares(const std::vector<Sheet>& landed) const {
     const double area = isPath ? kTangentArea * radius * radius : double(landing.area);
     const double luminance = double(landing.luminance);
     const double point = double(settings_.detailsOfPoint * landing.detail);
-    sum += luminance * luminance / std::max(area, point * point);
+    sum += pointsOf(landing, float(luminance * luminance / std::max(area, point * point)));
   }
   return sum;
 }

@@ -8,13 +8,14 @@ namespace nephroid {
 
 // What a sheet leaves where it lands.
 struct Landing {
-  vec3 flux{0};             // lm
-  float luminance = 0;      // lm
-  float area = 0;           // m2
-  float width = 0;          // m, across its longest side
-  float longest = 0;        // m
-  float detail = 0;         // m, of a receiver's point there, or of what the lamp's size leaves
-  vec2 blur{0};             // m, standard deviations of the lamp's image, the least first
+  vec3 flux{0};         // lm
+  float luminance = 0;  // lm
+  float area = 0;       // m2
+  float width = 0;      // m, across its longest side
+  float longest = 0;    // m
+  float point = 0;      // m, side of a receiver's point there: of a pixel of the picture, or of the sensor's
+  float detail = 0;     // m, of a receiver's point, or of what the lamp's size leaves
+  vec2 blur{0};         // m, standard deviations of the lamp's image, the least first
   bool isMirrored = false;  // its corners have changed sides: light is past an odd number of folds
   bool isWanted = true;
 };
@@ -53,7 +54,7 @@ class Refinement {
   void include(const Sheet& sheet, const Landing& landing, int sign);
   Landing landingOf(const Sheet& sheet) const;
   double allowedSquares();
-  double areaOfMost(double flux) const;
+  void describeLit();
   double judge(const std::vector<Sheet>& landed);
   double errorSquares(const Sheet& sheet, const Landing& landing) const;
   float steepness(const Sheet& sheet, const Landing& landing) const;
@@ -69,9 +70,11 @@ class Refinement {
   std::vector<Landing> landings_;
   std::vector<Around> around_;  // by node
   float litArea_ = 0;           // m2
-  double mean_ = 0;             // lm/m2
+  double litPoints_ = 0;        // the same, in receivers' points
+  double mean_ = 0;             // lm/m2, of the points
+  uint64_t mostBeams_ = 0;
   double allowed_ = 0;          // as allowedSquares
-  std::vector<double> errors_;  // squared, times m2
+  std::vector<double> errors_;  // squared, times the points that have them
 };
 
 }  // namespace nephroid

@@ -53,13 +53,13 @@ void LightSheets::prune(std::vector<Sheet>& sheets) {
 // sheets that carry little some are taken out by lot, with their light given to the others: in the mean
 // nothing is missing, and long ways of trapped light cost little.
 void LightSheets::chooseAmongWeak(std::vector<Sheet>& children) {
-  const float usual = kLeastCarried * settings_.error * float(stats.incidentFlux);
   const float crowding = std::max(partOfMemory() - kFreePart, 0.0f) / kPartOfDoubling;
-  const float crowded = usual * std::exp2(std::min(crowding, kMostDoublings));
+  const float crowded = std::exp2(std::min(crowding, kMostDoublings));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < children.size(); ++i) {
     Sheet child = children[i];
-    const float least = child.generation > kLongWay ? crowded : usual;
+    const float least =
+        kLeastCarried * settings_.error * fullFlux(child) * (child.generation > kLongWay ? crowded : 1);
     float left = luminanceOf(carried(child));
     if (!(left > 0)) continue;
     const PathNode& node = tree.nodes[child.node[0]];

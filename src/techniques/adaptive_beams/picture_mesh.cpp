@@ -12,7 +12,8 @@ namespace {
 // one.
 constexpr float kBeamsOfPixel = 1.0f / 8, kErrorOfMost = 0.01f;
 constexpr uint64_t kFewestBeams = 40'000, kMostBeams = 4'000'000;
-// Of the smallest caster, what a receiver's point shows at most, however far the eye is.
+// Of a caster, what a receiver's point shows of its light at most, however far the eye is; and of the smallest
+// caster the least.
 constexpr float kMostDetail = 1.0f / 100;
 constexpr float kLeastDetail = 1.0f / 20000;
 
@@ -40,7 +41,7 @@ RayMeshSettings settingsOfPicture(const Scene& scene, uvec2 size, const Techniqu
   wanted.eye = scene.camera.position;
   wanted.detailPerMeter =
       2 * std::tan(0.5f * glm::radians(scene.camera.verticalFov)) / float(std::max(size.y, 1u));
-  wanted.mostDetail = kMostDetail * smallest;
+  wanted.mostDetailOfCaster = kMostDetail;
   wanted.detail = kLeastDetail * smallest;
   return wanted;
 }
