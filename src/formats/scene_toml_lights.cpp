@@ -218,6 +218,7 @@ Light readClearSky(TomlTable& table, Light& light, Scene& scene) {
 std::optional<Light> readSky(TomlTable& table, Light& light, Scene& scene, bool isBackgroundGiven) {
   light.intensity = table.numberOrRgb("luminance", kNotNegative).value_or(vec3(1));
   light.skyRotation = static_cast<float>(table.numberAt("rotation", {-36000, 36000}, scene.time).value_or(0));
+  light.hasGivenSamples = table.has("samples");
   light.samples = static_cast<uint32_t>(table.integer("samples", kSkySamples).value_or(kDefaultSkySamples));
   light.isSeen = table.boolean("visible").value_or(!isBackgroundGiven);
   if (table.has("model")) return readClearSky(table, light, scene);

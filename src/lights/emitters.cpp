@@ -20,18 +20,6 @@ std::vector<EmitterRow> rowsOfArea(const Light& light, Emitter emitter) {
   return rows;
 }
 
-std::vector<EmitterRow> rowsOfSky(const Light& light, Emitter emitter) {
-  emitter.type = kEmitterDirectional;
-  const mat3 turned = skyTurned(light.skyRotation);
-  std::vector<EmitterRow> rows;
-  for (const SkyPart& part : light.sky) {
-    emitter.direction = turned * part.direction;
-    emitter.power = light.intensity * part.illuminance;
-    rows.push_back({emitter});
-  }
-  return rows;
-}
-
 template <class Element>
 std::vector<Element> ofAllLights(const Scene& scene,
                                  std::vector<Element> (*ofLight)(const Light&, uint32_t)) {
@@ -74,6 +62,14 @@ Emitter lampOf(const Light& light, uint32_t index) {
   return lamp;
 }
 
+Emitter emitterOf(const Light& sky, uint32_t index, const SkyPart& part) {
+  Emitter emitter = lampOf(sky, index);
+  emitter.type = kEmitterDirectional;
+  emitter.direction = skyTurned(sky.skyRotation) * part.direction;
+  emitter.power = sky.intensity * part.illuminance;
+  return emitter;
+}
+
 std::vector<EmitterRow> emitterRowsOf(const Light& light, uint32_t index) {
   Emitter emitter = lampOf(light, index);
   switch (light.type) {
@@ -85,8 +81,11 @@ std::vector<EmitterRow> emitterRowsOf(const Light& light, uint32_t index) {
     }
     case LightType::area:
       return rowsOfArea(light, emitter);
-    case LightType::sky:
-      return rowsOfSky(light, emitter);
+    case LightType::sky: {
+      std::vector<EmitterRow> rows;
+      for (const SkyPart& part : light.sky) rows.push_back({emitterOf(light, index, part)});
+      return rows;
+    }
     default:
       return {{emitter}};
   }

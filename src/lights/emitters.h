@@ -26,6 +26,9 @@ inline vec3 middleOf(const Light& light) {
 // (light_intensity.h). Not for a sky. `index`: of the light in its scene.
 Emitter lampOf(const Light& light, uint32_t index = 0);
 
+// A part of a sky. `index`: of the light in its scene.
+Emitter emitterOf(const Light& sky, uint32_t index, const SkyPart& part);
+
 // Emitters that differ only in position, each one `step` (m) after the one before.
 struct EmitterRow {
   Emitter first{};

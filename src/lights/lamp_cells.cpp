@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <functional>
+#include <string_view>
 
 #include "core/directions.h"
+#include "lights/sky.h"
 
 namespace nephroid {
 namespace {
@@ -13,6 +15,9 @@ namespace {
 // grows as the square of the angle.
 constexpr float kWidestPart = 0.3f, kMostPartsAlong = 2;
 constexpr float kErrorOfWidest = 0.01f;
+// The same of a sky (skyParts): some 256 parts of an even one.
+constexpr float kSpreadOfSkyParts = 0.008f;
+constexpr uint32_t kMostSkyParts = 4096;
 constexpr double kFlat = 1e-12;  // variance of what has no extent
 
 enum class LampForm { disk, rectangle, segment };
@@ -194,6 +199,42 @@ std::vector<LampCell> lampCells(const Light& light, uint32_t index, vec3 center,
       cells.push_back(std::move(cell));
     }
   return cells;
+}
+
+std::vector<LampCell> skyCells(const Light& light, uint32_t index, std::span<const SkyPart> parts) {
+  LampCell cell;
+  describePart({.form = LampForm::disk}, {0, 0}, cell.spread);
+  cell.spread.isOneOfMore = true;
+  const mat3 turned = skyTurned(light.skyRotation);
+  std::vector<LampCell> cells;
+  for (const SkyPart& part : parts) {
+    cell.emitter = emitterOf(light, index, part);
+    for (int axis = 0; axis < 2; ++axis) {
+      const vec3 spread = turned * part.spread[axis];
+      cell.spread.deviation[axis] = length(spread);
+      cell.spread.axis[axis] = spread / std::max(length(spread), 1e-30f);
+    }
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+std::span<const SkyPart> CutSkies::partsOf(const SkyMap& map, float error, uint32_t most) {
+  constexpr std::size_t kMostKept = 8;
+  const std::string_view bytes(reinterpret_cast<const char*>(map.luminance.data()),
+                               map.luminance.size() * sizeof(vec3));
+  const std::size_t hash = std::hash<std::string_view>{}(bytes);
+  auto found = std::ranges::find_if(cuts_, [&](const Cut& cut) {
+    return cut.map == hash && cut.size == map.size && cut.error == error && cut.most == most;
+  });
+  if (found == cuts_.end()) {
+    if (cuts_.size() == kMostKept) cuts_.pop_back();
+    const double spread = double(kSpreadOfSkyParts * error / kErrorOfWidest);
+    cuts_.push_back({hash, map.size, error, most, skyParts(map, std::min(most, kMostSkyParts), spread)});
+    found = cuts_.end() - 1;
+  }
+  std::rotate(cuts_.begin(), found, found + 1);
+  return cuts_.front().parts;
 }
 
 }  // namespace nephroid

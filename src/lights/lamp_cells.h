@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "lights/emitters.h"
@@ -42,5 +43,25 @@ struct LampCell {
 // small that light moves nearly in proportion to the place on it; more for a smaller `error` (of the mean).
 // `index`: of the light in its scene. Gobos and profiles are not included.
 std::vector<LampCell> lampCells(const Light& light, uint32_t index, vec3 center, float radius, float error);
+
+// `parts`: of its map.
+std::vector<LampCell> skyCells(const Light& light, uint32_t index, std::span<const SkyPart> parts);
+
+// Skies in as many parts as an error asks for. They are kept, so that a sky is not cut anew for each picture.
+class CutSkies {
+ public:
+  // `error`: of the mean; but no more than `most` parts. They are there until the next call.
+  std::span<const SkyPart> partsOf(const SkyMap& map, float error, uint32_t most);
+
+ private:
+  struct Cut {
+    std::size_t map = 0;  // a hash of its luminances
+    uvec2 size{0};
+    float error = 0;
+    uint32_t most = 0;
+    std::vector<SkyPart> parts;
+  };
+  std::vector<Cut> cuts_;  // the last used one first
+};
 
 }  // namespace nephroid

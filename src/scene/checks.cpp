@@ -215,6 +215,7 @@ void checkSkyLight(const Part& part, const Light& light, const Scene& scene) {
   for (const SkyPart& sky : light.sky) {
     part.unit("direction of a part of the sky", sky.direction);
     part.notNegative("illuminance of a part of the sky", sky.illuminance);
+    for (const vec3 axis : sky.spread) part.place("spread of a part of the sky", axis);
   }
 }
 

@@ -1,6 +1,7 @@
 // Lights, and the profiles and skies that shape them.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,12 @@ struct SkyMap {
   std::vector<vec3> luminance;  // nit, [row * size.x + column]
 };
 
-// A part of a sky as one directional light.
+// A part of a sky as one directional light that comes from about one direction.
 struct SkyPart {
   vec3 direction{0};    // unit, in which its light travels
   vec3 illuminance{0};  // lux on a facing surface
+  // Standard deviations of its directions, along two axes across `direction`.
+  std::array<vec3, 2> spread{vec3(0), vec3(0)};
   bool operator==(const SkyPart&) const = default;
 };
 
@@ -57,6 +60,8 @@ struct Light {
   bool isSeen = true;            // a sky: where nothing stands, in glass and in mirrors
   uint32_t sun = kNone;          // a sky: the directional light, in Scene::lights, whose disk is seen in it
   std::vector<SkyPart> sky;      // the parts that stand for the map, before rotation and `intensity`
+  // A sky: `sky` also where a technique would cut the map into as many parts as the error asked for takes.
+  bool hasGivenSamples = false;
   bool operator==(const Light&) const = default;
 };
 

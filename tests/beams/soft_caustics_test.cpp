@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "lights/lamp_light.h"
+#include "lights/sky.h"
 #include "support/reference_scenes.h"
 #include "techniques/adaptive_beams/sensor_light.h"
 
@@ -113,6 +114,34 @@ TEST(SoftCaustics, OfASmallLampAreThoseOfAPoint) {
   lamp.radius = 1e-5f;
   const std::vector<vec3> soft = luxOf(ballScene(lamp));
   for (std::size_t i = 0; i < sharp.size(); ++i) EXPECT_NEAR(soft[i].x, sharp[i].x, 0.01f * (1 + sharp[i].x));
+}
+
+// Wherever light that a ball of clear glass sends to a point comes from, it is as bright as the even sky. A
+// sky is some 256 parts for the error of 1 %; what a part spreads over is off by the square of its 0.09
+// radians, and the ball's triangles are within it by a thousandth of its area.
+TEST(SoftCaustics, OfAnEvenSkyAreAsBrightAsTheSky) {
+  constexpr float kRadius = 0.4f, kHeight = 0.7f;
+  Light sky;
+  sky.type = LightType::sky;
+  sky.skyMap = 0;
+  sky.sky = skyParts(evenSky(), 16);
+  Scene scene = ballScene(sky);
+  scene.skies = {evenSky()};
+  scene.meshes[0] = makeSphere(kRadius, {.vertices = 2000});
+  scene.objects.resize(1);  // no floor: a ball between a sensor and the sky on all sides
+  std::vector<double> truth;
+  for (uint32_t i = 0; i < kTexels * kTexels; ++i) {
+    const vec2 texel(float(i % kTexels), float(i / kTexels));
+    const vec2 aside = ((texel + 0.5f) / float(kTexels) - 0.5f) * 1.6f;
+    const float squared = dot(aside, aside) + kHeight * kHeight;
+    truth.push_back(double(kPi * kRadius * kRadius / squared * kHeight / std::sqrt(squared)));
+  }
+  const Difference off = differenceOf(luxOf(scene), truth);
+  EXPECT_NEAR(off.flux, 1, 0.09 * 0.09);
+  EXPECT_LT(off.rmse, 0.02);
+  // With the parts that its file asks for, too few of them.
+  scene.lights[0].hasGivenSamples = true;
+  EXPECT_GT(differenceOf(luxOf(scene), truth).rmse, 0.1);
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "core/color.h"
 #include "core/image_io.h"
 #include "formats/load.h"
+#include "lights/lamp_cells.h"
 #include "lights/light_intensity.h"
 #include "lights/sky.h"
 #include "support/reference_scenes.h"
@@ -132,6 +134,104 @@ TEST(Sky, WithASunIsALightFromThere) {
   EXPECT_LT(length(emittersOf(scene)[0].direction + vec3(toward.z, toward.y, -toward.x)), 1e-5f);
 }
 
+double luxOfParts(const std::vector<SkyPart>& parts, vec3 up) {
+  double lux = 0;
+  for (const SkyPart& part : parts)
+    lux += double(part.illuminance.x) * std::max(-dot(part.direction, up), 0.0f);
+  return lux;
+}
+
+// By light, of the directions about that of their part: the mean of their squares.
+double meanSpread(const std::vector<SkyPart>& parts) {
+  double spread = 0, all = 0;
+  for (const SkyPart& part : parts) {
+    const double lux = double(luminanceOf(part.illuminance));
+    all += lux;
+    for (const vec3 axis : part.spread) spread += lux * double(dot(axis, axis));
+  }
+  return spread / all;
+}
+
+// A part sends what it has from one direction, in place of the mean of the cosines: too much by half of its
+// spread, which is not the same of all. The horizon is between rows of the map.
+TEST(SkyParts, OfAnEvenSkyAreTheSky) {
+  double before = 4;
+  for (const uint32_t count : {16u, 64u, 256u, 1024u}) {
+    const std::vector<SkyPart> parts = skyParts(evenSky(), count);
+    EXPECT_EQ(parts.size(), count);
+    double all = 0;
+    for (const SkyPart& part : parts) all += double(part.illuminance.x);
+    EXPECT_NEAR(all / (4 * double(kPi)), 1, 1e-5) << count;
+    const double spread = meanSpread(parts), tooMuch = luxOfParts(parts, {0, 1, 0}) / double(kPi) - 1;
+    EXPECT_GT(tooMuch, -1e-5) << count;
+    EXPECT_LT(tooMuch, spread) << count;
+    // Four times as many parts are half as wide. A square of the same solid angle has a spread of 1/6 of it.
+    EXPECT_LT(spread, 0.35 * before) << count;
+    EXPECT_LT(spread, 2 * 4 * double(kPi) / count / 6) << count;
+    before = spread;
+  }
+}
+
+TEST(SkyParts, AreAsManyAsTheSpreadTakes) {
+  std::size_t before = 0;
+  for (const double spread : {0.1, 0.02, 0.008}) {
+    const std::vector<SkyPart> parts = skyParts(evenSky(), 4096, spread);
+    EXPECT_LE(meanSpread(parts), 1.1 * spread + 2e-3);  // across its direction, with that in the map's cells
+    EXPECT_GT(parts.size(), before);
+    EXPECT_LT(double(parts.size()), 1.25 * 4 * double(kPi) / spread / 6);
+    before = parts.size();
+  }
+}
+
+// As bright as the sun beside a day's sky, with less light than that has: it stays where it is, and as small.
+TEST(SkyParts, HaveASunAlone) {
+  constexpr uvec2 kSize{256, 128}, kSun{40, 30};
+  SkyMap map{"sky", kSize, std::vector<vec3>(std::size_t{kSize.x} * kSize.y, vec3(1))};
+  map.luminance[kSun.y * kSize.x + kSun.x] = vec3(5e3f);
+  const vec3 toward = towardSky((vec2(kSun) + 0.5f) / vec2(kSize));
+  for (const uint32_t count : {2u, 64u}) {
+    const std::vector<SkyPart> parts = skyParts(map, count);
+    const auto alone = std::ranges::find_if(
+        parts, [&](const SkyPart& part) { return length(part.direction + toward) < 1e-5f; });
+    ASSERT_NE(alone, parts.end()) << count;
+    EXPECT_FLOAT_EQ(alone->illuminance.x, 5e3f * skyCellAngle(map, kSun.y));
+    EXPECT_LT(length(alone->spread[0]), kPi / float(kSize.y));
+    EXPECT_EQ(parts.size(), count);
+  }
+}
+
+// Across a narrow band the light spreads along it, and evenly as that is long.
+TEST(SkyParts, TellWhereTheirLightSpreads) {
+  constexpr uvec2 kSize{256, 128};
+  SkyMap map{"sky", kSize, std::vector<vec3>(std::size_t{kSize.x} * kSize.y, vec3(0))};
+  for (uint32_t x = 120; x < 136; ++x) map.luminance[63 * kSize.x + x] = vec3(1);
+  const std::vector<SkyPart> parts = skyParts(map, 2);
+  ASSERT_EQ(parts.size(), 2u);
+  for (const SkyPart& part : parts) {
+    const float cell = 2 * kPi / float(kSize.x);
+    EXPECT_NEAR(length(part.spread[0]), 8 * cell / std::sqrt(12.0f), 0.02f * cell);
+    EXPECT_NEAR(length(part.spread[1]), cell / std::sqrt(12.0f), 0.02f * cell);
+    EXPECT_LT(std::abs(part.spread[0].y), 0.02f * length(part.spread[0]));
+    EXPECT_NEAR(dot(part.spread[0], part.direction), 0, 1e-5f);
+  }
+}
+
+// As many as an error asks for, and the same ones again; other maps have parts of their own.
+TEST(CutSkies, KeepTheirParts) {
+  CutSkies skies;
+  const SkyMap even = evenSky();
+  const std::span<const SkyPart> parts = skies.partsOf(even, 0.01f, 4096);
+  EXPECT_GT(parts.size(), 200u);
+  EXPECT_LT(parts.size(), 320u);
+  const std::size_t few = skies.partsOf(even, 0.05f, 4096).size();
+  EXPECT_LT(few, parts.size() / 4);
+  SkyMap half = even;
+  for (std::size_t i = half.luminance.size() / 2; i < half.luminance.size(); ++i) half.luminance[i] = vec3(0);
+  EXPECT_LT(skies.partsOf(half, 0.05f, 4096).size(), few);
+  EXPECT_EQ(skies.partsOf(even, 0.05f, 4096).size(), few);
+  EXPECT_EQ(skies.partsOf(even, 0.01f, 4096).data(), parts.data());
+}
+
 class ExtendedLights : public ScratchFiles {
  protected:
   Scene loaded(const std::string& light) const {
@@ -163,6 +263,8 @@ TEST_F(ExtendedLights, AreReadFromAFile) {
   // The left half is toward -x.
   EXPECT_LT(length(emittersOf(sky)[0].direction - vec3(1, 0, 0)), 1e-6f);
   EXPECT_FLOAT_EQ(emittersOf(sky)[1].power.x, 2 * 3 * 2 * kPi);
+  EXPECT_TRUE(sky.lights[0].hasGivenSamples);
+  EXPECT_FALSE(loaded("type = \"sky\"\nluminance = 2\n").lights[0].hasGivenSamples);
 }
 
 TEST_F(ExtendedLights, ThatAreWrongSayWhere) {

@@ -46,13 +46,26 @@ vec3 allThree(vec2 weights) {
   return {1 - weights.x - weights.y, weights};
 }
 
+// So many that the casters' own triangles are followed from them in seconds.
+uint32_t mostPartsOfSkies(const Scene& scene, float error) {
+  constexpr float kMostTriangles = 1e6f, kErrorOfMost = 0.01f;
+  constexpr float kFewestParts = 16, kMostParts = 1e6f;
+  std::size_t triangles = 1;
+  for (const Object& object : scene.objects)
+    if (scene.isCaster(object)) triangles += scene.meshOf(object).triangles.size();
+  const float most = kMostTriangles * std::max(kErrorOfMost / error, 1.0f) / float(triangles);
+  return uint32_t(std::clamp(most, kFewestParts, kMostParts));
+}
+
 }  // namespace
 
-std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, float error,
-                                          MediaTable& media) {
+LightOntoCasters lightOntoCasters(const Scene& scene, const RayScene& rays, float error, CutSkies& skies,
+                                  MediaTable& media) {
   const std::vector<const Material*> materials = materialsOf(scene);
   const int channels = disperses(scene) ? 3 : 1;
-  std::vector<CasterLight> all;
+  LightOntoCasters onto;
+  std::vector<CasterLight>& all = onto.lights;
+  const uint32_t mostSkyParts = mostPartsOfSkies(scene, error);
   const auto add = [&](uint32_t object, const LampCell& cell, const MediumStack& around) {
     for (int channel = 0; channel < channels; ++channel) {
       CasterLight light;
@@ -71,34 +84,44 @@ std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& ra
       all.push_back(light);
     }
   };
-  // Moves an emitter off surfaces, and tells the media about it.
-  const auto settled = [&](Emitter& emitter) {
-    if (emitter.type == kEmitterDirectional) return MediumStack{};
-    emitter.position = besideSurfaces(scene, rays, emitter.position);
-    return mediaAround(rays, materials, emitter.position);
+  // Moves the emitters off surfaces, and tells the media about them.
+  const auto settled = [&](std::vector<LampCell> cells) {
+    std::vector<std::pair<LampCell, MediumStack>> placed;
+    for (LampCell& cell : cells) {
+      MediumStack around{};
+      if (cell.emitter.type != kEmitterDirectional) {
+        cell.emitter.position = besideSurfaces(scene, rays, cell.emitter.position);
+        around = mediaAround(rays, materials, cell.emitter.position);
+      }
+      placed.emplace_back(std::move(cell), around);
+    }
+    return placed;
   };
   for (uint32_t index = 0; index < scene.lights.size(); ++index) {
     const Light& lamp = scene.lights[index];
-    if (!hasSize(lamp)) {
-      for (Emitter emitter : emittersOf(lamp, index)) {
-        const MediumStack around = settled(emitter);
-        for (uint32_t object = 0; object < scene.objects.size(); ++object)
-          if (scene.isCaster(scene.objects[object])) add(object, {emitter, {}}, around);
-      }
-      continue;
+    const bool isSky = lamp.type == LightType::sky, isSeenAsItIs = isSky || !hasSize(lamp);
+    std::vector<LampCell> same;  // for all casters
+    if (isSky && lamp.hasGivenSamples) {
+      same = skyCells(lamp, index, lamp.sky);
+    } else if (isSky) {
+      same = skyCells(lamp, index, skies.partsOf(scene.skies[lamp.skyMap], error, mostSkyParts));
+      if (same.size() == mostSkyParts) onto.fewSkyParts = mostSkyParts;
     }
+    if (!isSky && isSeenAsItIs)
+      for (const Emitter& emitter : emittersOf(lamp, index)) same.push_back({emitter, {}});
+    const auto forAll = settled(std::move(same));
     for (uint32_t object = 0; object < scene.objects.size(); ++object) {
       if (!scene.isCaster(scene.objects[object])) continue;
       const Placement& placement = scene.objects[object].placement;
       const Sphere sphere = boundingSphere(scene.meshOf(scene.objects[object]));
-      for (LampCell& cell :
-           lampCells(lamp, index, placement.point(sphere.center), placement.scale * sphere.radius, error)) {
-        const MediumStack around = settled(cell.emitter);
+      for (const auto& [cell, around] : isSeenAsItIs
+                                            ? forAll
+                                            : settled(lampCells(lamp, index, placement.point(sphere.center),
+                                                                placement.scale * sphere.radius, error)))
         add(object, cell, around);
-      }
     }
   }
-  return all;
+  return onto;
 }
 
 vec3 entryPosition(const Scene& scene, uint32_t objectIndex, uint32_t triangle, vec2 weights) {

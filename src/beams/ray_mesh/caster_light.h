@@ -21,10 +21,15 @@ struct CasterLight {
   float facing = 1;   // -1 where the light stands inside the caster and meets its triangles from behind
 };
 
-// All that casters get, lamp by lamp. Where materials disperse, one for each channel. `error`: that the light
-// may have, of its mean.
-std::vector<CasterLight> lightOntoCasters(const Scene& scene, const RayScene& rays, float error,
-                                          MediaTable& media);
+// All that casters get, lamp by lamp. Where materials disperse, one for each channel.
+struct LightOntoCasters {
+  std::vector<CasterLight> lights;
+  uint32_t fewSkyParts = 0;  // that a sky is, where the error would take more than can be followed; else 0
+};
+
+// `error`: that the light may have, of its mean.
+LightOntoCasters lightOntoCasters(const Scene& scene, const RayScene& rays, float error, CutSkies& skies,
+                                  MediaTable& media);
 
 // A point of a triangle of a caster's mesh, by weights of its second and third corner. World space.
 struct EntryPoint {

@@ -64,6 +64,7 @@ struct PathAsk {
 // Lists that each picture needs anew. Kept, so that their memory need not be asked for again. Of one trace
 // at a time.
 struct SheetMemory {
+  CutSkies skies;
   std::vector<NewCorner> pending;
   std::vector<uint32_t> firstOfCorner;
   std::vector<EdgeTable> middles;

@@ -45,9 +45,11 @@ void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSetting
   mesh.paths.clear();
   mesh.stats = {};
   MediaTable media(rays);
-  const std::vector<CasterLight> lights = lightOntoCasters(scene, rays, settings.error, media);
-  const auto groups = lightGroups(scene, lights, settings.mostBytes);
-  for (const std::span<const CasterLight> group : groups) {
+  const auto [lights, fewSkyParts] = lightOntoCasters(scene, rays, settings.error, memory.skies, media);
+  mesh.stats.fewSkyParts = fewSkyParts;
+  auto groups = lightGroups(scene, lights, settings.mostBytes);
+  for (std::size_t at = 0; at < groups.size(); ++at) {
+    const std::span<const CasterLight> group = groups[at];
     RayMeshSettings own = settings;
     own.mostBeams = std::max<uint64_t>(settings.mostBeams * group.size() / lights.size(), 1);
     if (std::ranges::any_of(group, [](const CasterLight& light) { return light.spread.hasSize(); }))
@@ -60,7 +62,18 @@ void traceRayMesh(const Scene& scene, const RayScene& rays, const RayMeshSetting
     memory.sheets.clear();
     sheets.addFirstSheets(memory.sheets);
     sheets.follow(memory.sheets, landed, progress);
-    if (sheets.bytes() > settings.mostBytes) throw TooManyPaths(sheets.bytes());
+    if (sheets.bytes() > settings.mostBytes) {
+      if (group.size() == 1) throw TooManyPaths(sheets.bytes());
+      // Half of the lamps at a time.
+      groups[at] = group.first(group.size() / 2);
+      groups.insert(groups.begin() + std::ptrdiff_t(at) + 1, group.subspan(group.size() / 2));
+      memory.sheets.clear();
+      landed.clear();
+      memory.giveBackLarge();
+      nodes = {};
+      --at;
+      continue;
+    }
     Refinement refinement(sheets, own, memory);
     refinement.run(landed, progress);
     sheets.conform(landed);

@@ -68,6 +68,7 @@ struct RayMeshStats {
   double missedFlux = 0;     // that went elsewhere than where it is wanted
   uint64_t singlePaths = 0;  // beams that are one path
   double error = 0;          // that was reached
+  uint32_t fewSkyParts = 0;  // as in LightOntoCasters
   RayMeshBound bound = RayMeshBound::none;
   std::array<uint64_t, kToldLevels> beamsByLevel{};
   std::array<uint64_t, kToldLevels> beamsByBranch{};  // by the boundaries that they crossed

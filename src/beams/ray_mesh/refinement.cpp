@@ -423,13 +423,12 @@ void Refinement::emit(const std::vector<Sheet>& landed, RayMesh& mesh) {
       const std::span<LandedBeam> beams = std::span(mesh.beams).subspan(firsts[i], firsts[i + 1] - firsts[i]);
       const vec3 normal = settings_.target.isPlane ? settings_.target.plane.normal
                                                    : sheets_.tree.nodes[sheet.node[0]].geometricNormal;
-      if (beams.size() == 1) {
+      const bool isMixed = copiesOf(sheet, landings_[wanted[i]]).areMixed;
+      if (beams.size() == 1 && !isMixed)
         beams[0] = beam;
-      } else {
-        const bool isMixed = copiesOf(sheet, landings_[wanted[i]]).areMixed;
+      else
         widen(beam, shiftOf(sheet), sheets_.spreadOf(sheet), normal,
               isMixed ? std::optional(i) : std::nullopt, beams);
-      }
     }
   });
   for (std::size_t i = 0; i < wanted.size(); ++i) {

@@ -12,7 +12,7 @@ namespace {
 constexpr float kUnseenBlur = 0.15f, kSmallBlur = 0.6f;
 // Of the standard deviation, the size of beams of which there are many in a lamp's image.
 constexpr float kSmallBeam = 0.15f;
-constexpr uint32_t kMixed = 8;  // of the many places, that such a beam uses
+constexpr std::size_t kMixed = 8;  // of the many places, that such a beam uses
 // Of the variance of what a place stands for, what its beam is smeared by is not taken from that of the
 // places: the middle of the lamp's image stays as bright as it is.
 constexpr float kNotTaken = 0.5f;
@@ -78,13 +78,14 @@ vec3 movedCorner(vec3 corner, const BeamShift& shift, int c, vec2 at, vec3 norma
 
 BeamCopies copiesFor(float blur, float detail, float longest, bool isOneOfMore) {
   if (blur < kUnseenBlur * detail) return {};
-  if (longest < kSmallBeam * blur) return {kMixed, true};
+  // Of a lamp of many parts there are so many small beams that each may have one of the places.
+  if (longest < kSmallBeam * blur) return {isOneOfMore ? 1 : kMixed, true};
   return {isOneOfMore || blur < kSmallBlur * detail ? kFewLampPlaces : kLampPlaces, false};
 }
 
 void widen(const LandedBeam& beam, const BeamShift& shift, const LampSpread& lamp, vec3 normal,
            std::optional<std::size_t> number, std::span<LandedBeam> beams) {
-  const std::size_t count = beams.size(), stride = kManyLampPlaces / kMixed;
+  const std::size_t count = beams.size(), stride = kManyLampPlaces / count;
   const Plane plane = planeAcross(normal);
   const float rest = lamp.restOf(number ? kLampPlaces : count);
   mat2 variance(0);

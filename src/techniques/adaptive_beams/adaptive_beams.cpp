@@ -47,7 +47,12 @@ std::string shortfallOf(const RayMesh& mesh, const Accuracy& accuracy, bool isPi
   // A claim is worth so much, and chance moves it.
   constexpr double kDoubt = 2;
   const bool isMet = told.error <= (told.bound == RayMeshBound::none ? kDoubt : 1) * double(accuracy.error);
-  if (isMet) return {};
+  const std::string sky =
+      told.fewSkyParts == 0
+          ? ""
+          : "the sky's caustics are those of " + std::to_string(told.fewSkyParts) +
+                " parts of it, as its casters have many triangles (a smaller --error: more)";
+  if (isMet) return sky;
   std::string cause = "weak reflections are chosen at random (a smaller --error keeps more of them)";
   if (told.bound == RayMeshBound::bytes)
     cause = "--memory " + std::to_string(accuracy.memory) + " leaves no room for more paths";
@@ -55,7 +60,7 @@ std::string shortfallOf(const RayMesh& mesh, const Accuracy& accuracy, bool isPi
     cause = "no more than " + std::to_string(mesh.beams.size()) + " beams are made" +
             (isPicture ? " (for a larger picture or a smaller --error, more)" : "");
   return "the light of caustics may be off by up to " + inPercent(told.error) + " of its mean, not " +
-         inPercent(double(accuracy.error)) + ": " + cause;
+         inPercent(double(accuracy.error)) + ": " + cause + (sky.empty() ? "" : "; " + sky);
 }
 
 void tell(const RayMesh& mesh, Paths paths, const Accuracy& accuracy, bool isPicture, Stats& stats) {

@@ -12,8 +12,8 @@ namespace {
 // one.
 constexpr float kBeamsOfPixel = 1.0f / 8, kErrorOfMost = 0.01f;
 constexpr uint64_t kFewestBeams = 40'000, kMostBeams = 4'000'000;
-// Of a caster, what a receiver's point shows of its light at most, however far the eye is; and of the smallest
-// caster the least.
+// Of a caster, what a receiver's point shows of its light at most, however far the eye is; and of the
+// smallest caster the least.
 constexpr float kMostDetail = 1.0f / 100;
 constexpr float kLeastDetail = 1.0f / 20000;
 
