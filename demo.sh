@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From nothing to a picture: installs what is missing, builds, and renders the bunny in colored glass.
+# From nothing to a picture: installs what is missing, builds, and renders a glass of wine at a pool.
 set -euo pipefail
 cd "$(dirname "$0")"
 . scripts/build.sh
@@ -7,5 +7,5 @@ cd "$(dirname "$0")"
 scripts/setup.sh
 build_program
 mkdir -p out
-build/release/bin/nephroid render scenes/glass-bunny.toml -o out/glass-bunny.png --size 960x640 "$@"
-echo "The picture: $PWD/out/glass-bunny.png"
+build/release/bin/nephroid render scenes/terrace/terrace.toml -o out/terrace.png --size 1280x800 "$@"
+echo "The picture: $PWD/out/terrace.png"
