@@ -134,8 +134,9 @@ void drawExposure(Camera& camera, std::optional<float>& metered) {
   }
   if (ImGui::Button("Meter again")) metered.reset();
   tooltip("On the picture as it is now (G)");
+  if (!metered) return;
   ImGui::SameLine();
-  if (metered) ImGui::TextDisabled("%.4g, EV100 %.1f", double(*metered), ev100OfExposure(double(*metered)));
+  ImGui::TextDisabled("%.4g, EV100 %.1f", double(*metered), ev100OfExposure(double(*metered)));
 }
 
 void drawTone(Camera& camera) {

@@ -109,9 +109,14 @@ bool Viewer::takeDrawing() {
   state_.outputs = graphics_->stage->renderer().outputs();
   state_.memoryBytes = graphics_->device().memoryBytes();
   state_.gathered = 0;
-  state_.metered = state_.scene.camera.exposure ? std::nullopt : std::optional(stage.exposure());
   drawn_ = done->of;
-  drawn_.metered = state_.metered;
+  const bool isMetered = !drawn_.state.camera.exposure;
+  const bool isAskedAnew = drawn_.metered && !state_.metered;  // while this frame was drawn
+  if (!isMetered)
+    state_.metered.reset();
+  else if (!isAskedAnew)
+    state_.metered = stage.exposure();
+  drawn_.metered = isMetered ? std::optional(stage.exposure()) : std::nullopt;
   lastChange_ = Clock::now();
   return true;
 }

@@ -39,14 +39,16 @@ void saveCamera(const Camera& before, const Camera& after, TomlText& text) {
   if (upFor(after.target - after.position) != after.up) text.set("camera", "up", tomlVector(after.up));
 }
 
-// A file with ambient light has no default sky.
-void saveEnvironment(const Environment& before, const Environment& after, bool hasDefaultSky, TomlText& text,
-                     std::vector<std::string>& notSaved) {
+// A file with ambient light has no default sky, and one with a background does not show it.
+void saveEnvironment(const Environment& before, const Environment& after, bool hasDefaultSky,
+                     bool isBackgroundNew, TomlText& text, std::vector<std::string>& notSaved) {
   if (before.ambient != after.ambient && hasDefaultSky)
     notSaved.push_back("ambient light beside the default sky");
   else if (before.ambient != after.ambient)
     text.set("environment", "ambient", tomlColor(after.ambient));
-  if (before.background != after.background)
+  if (isBackgroundNew && hasDefaultSky)
+    notSaved.push_back("a background beside the default sky");
+  else if (before.background != after.background)
     text.set("environment", "background", tomlColor(after.background));
 }
 
@@ -309,7 +311,8 @@ SavedScene savedScene(const std::string& source, const Scene& before, const Scen
   const bool isBackgroundNew =
       !givesBackground() && before.environment.background != after.environment.background;
   saveCamera(before.camera, after.camera, text);
-  saveEnvironment(before.environment, after.environment, before.hasDefaultSky, text, saved.notSaved);
+  saveEnvironment(before.environment, after.environment, before.hasDefaultSky, isBackgroundNew, text,
+                  saved.notSaved);
   saveMedium(before.medium, after.medium, text);
   saveList(before.materials, after.materials, 0, text.tables("material"), saved.notSaved,
            [&](const Material& was, const Material& is, const toml::table& table) {

@@ -28,9 +28,9 @@ vec3 sunIlluminance(const ClearSky& clear);
 // The sky, without the sun, and the ground that sky and sun light.
 SkyMap clearSkyMap(const ClearSky& clear);
 
-// Adds a sky to the scene: its map, where there is none of the same sky, and `sky`, which must have a name,
-// with its parts. Returns the sun, which is yet to be added to the scene's lights, and `sky.sun` is yet to be
-// set to its index.
+// Makes `sky`, which has its name, strength and number of parts, a clear one. Its map is added to the scene
+// where there is none of the same sky. Returns its sun. The caller adds both to the scene's lights, and sets
+// `sky.sun` to the sun's index.
 Light makeClearSky(const ClearSky& clear, Scene& scene, Light& sky);
 
 // The sun of a sky that was changed, in strength and rotation, as the sky was.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <string_view>
+#include <span>
 
 #include "core/directions.h"
+#include "core/hash.h"
 #include "lights/sky.h"
 
 namespace nephroid {
@@ -17,7 +17,6 @@ constexpr float kWidestPart = 0.3f, kMostPartsAlong = 2;
 constexpr float kErrorOfWidest = 0.01f;
 // The same of a sky (skyParts): some 256 parts of an even one.
 constexpr float kSpreadOfSkyParts = 0.008f;
-constexpr uint32_t kMostSkyParts = 4096;
 constexpr double kFlat = 1e-12;  // variance of what has no extent
 
 enum class LampForm { disk, rectangle, segment };
@@ -221,16 +220,14 @@ std::vector<LampCell> skyCells(const Light& light, uint32_t index, std::span<con
 
 std::span<const SkyPart> CutSkies::partsOf(const SkyMap& map, float error, uint32_t most) {
   constexpr std::size_t kMostKept = 8;
-  const std::string_view bytes(reinterpret_cast<const char*>(map.luminance.data()),
-                               map.luminance.size() * sizeof(vec3));
-  const std::size_t hash = std::hash<std::string_view>{}(bytes);
+  const uint64_t hash = hashBytes(std::as_bytes(std::span(map.luminance)));
   auto found = std::ranges::find_if(cuts_, [&](const Cut& cut) {
     return cut.map == hash && cut.size == map.size && cut.error == error && cut.most == most;
   });
   if (found == cuts_.end()) {
     if (cuts_.size() == kMostKept) cuts_.pop_back();
     const double spread = double(kSpreadOfSkyParts * error / kErrorOfWidest);
-    cuts_.push_back({hash, map.size, error, most, skyParts(map, std::min(most, kMostSkyParts), spread)});
+    cuts_.push_back({hash, map.size, error, most, skyParts(map, most, spread)});
     found = cuts_.end() - 1;
   }
   std::rotate(cuts_.begin(), found, found + 1);

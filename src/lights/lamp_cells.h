@@ -55,7 +55,7 @@ class CutSkies {
 
  private:
   struct Cut {
-    std::size_t map = 0;  // a hash of its luminances
+    uint64_t map = 0;  // a hash of its luminances
     uvec2 size{0};
     float error = 0;
     uint32_t most = 0;

@@ -45,10 +45,11 @@ Covered coveredBy(uint32_t cell, uint32_t fine, uint32_t coarse) {
 SkyMap coarserLevel(const SkyMap& fine) {
   SkyMap coarse{fine.name, glm::max(fine.size / 2u, uvec2(1)), {}};
   coarse.luminance.reserve(std::size_t{coarse.size.x} * coarse.size.y);
+  std::vector<Covered> columnsOf;
+  for (uint32_t x = 0; x < coarse.size.x; ++x) columnsOf.push_back(coveredBy(x, fine.size.x, coarse.size.x));
   for (uint32_t y = 0; y < coarse.size.y; ++y) {
     const Covered rows = coveredBy(y, fine.size.y, coarse.size.y);
-    for (uint32_t x = 0; x < coarse.size.x; ++x) {
-      const Covered columns = coveredBy(x, fine.size.x, coarse.size.x);
+    for (const Covered& columns : columnsOf) {
       vec3 sum(0);
       float weights = 0;
       for (uint32_t j = 0; j < rows.parts.size(); ++j) {

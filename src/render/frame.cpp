@@ -48,7 +48,7 @@ void addSampleTimes(const std::vector<PassTime>& sample, std::vector<PassTime>& 
 }
 
 // What is made again for another sample of the same frame.
-constexpr Remade kSightAlone{.sight = true, .shadowMaps = false, .beams = false};
+constexpr Remade kSightAlone{.sight = true, .lamps = false, .shadowMaps = false, .beams = false};
 
 // The parts of a picture outside of `inner`, in at most four rectangles.
 std::vector<gpu::Region> around(const gpu::Region& inner, uvec2 size) {
@@ -225,7 +225,7 @@ void Renderer::drawSample(vec2 at, float spacing, Remade remade, std::vector<Pas
   }
   ensureImages();
   drawFrame(remade, passes);
-  constexpr Remade kShadedAlone{.sight = false, .shadowMaps = false, .beams = false};
+  constexpr Remade kShadedAlone{.sight = false, .lamps = false, .shadowMaps = false, .beams = false};
   while (!technique_.finish()) drawFrame(kShadedAlone, passes);
 }
 
@@ -285,6 +285,9 @@ void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
   const auto onDevice = [&](const std::function<void(gpu::CommandList&)>& record) {
     for (const PassTime& pass : device_.submitAndWait(record)) passes.push_back(pass);
   };
+  // What the host has to do before the surfaces can be lit.
+  const bool looksAtLamps = lampShadows_.isAny() && (remade.sight || remade.lamps);
+  const bool choosesPlanes = shafts_ && !std::exchange(arePlanesInAirChosen_, true);
   onDevice([&](gpu::CommandList& commands) {
     if (remade.shadowMaps)
       commands.pass("shadow maps", [&] { directLight_.recordShadowMaps(commands, gpuScene_); });
@@ -298,15 +301,16 @@ void Renderer::drawFrame(const Remade& remade, std::vector<PassTime>& passes) {
       else
         sight_.record(commands, gpuScene_, images_, sky_);
     }
-    if (remade.sight && lampShadows_.isAny())
+    if (looksAtLamps)
       commands.pass("points to be lit", [&] {
         for (const LitView& lit : litViews())
           if (lit.view != kSeenByRays) lampShadows_.recordPoints(commands, lit.view, lit.points);
       });
+    if (!looksAtLamps && !choosesPlanes) illuminate(commands);
   });
-  if (lampShadows_.isAny() && (remade.sight || remade.shadowMaps))
-    onHost(passes, "shadows", [&] { lookAtLamps(); });
-  if (shafts_ && !std::exchange(arePlanesInAirChosen_, true))
+  if (!looksAtLamps && !choosesPlanes) return;
+  if (looksAtLamps) onHost(passes, "shadows", [&] { lookAtLamps(); });
+  if (choosesPlanes)
     onHost(passes, "planes in the air",
            [&] { shafts_.choosePlanes(directLight_, gpuScene_, images_.depth); });
   onDevice([&](gpu::CommandList& commands) { illuminate(commands); });

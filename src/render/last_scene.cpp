@@ -35,6 +35,7 @@ Remade LastScene::replace(const Scene& scene, bool keepsLight, bool beamsFollowC
   const bool lightsStand = scene.lights == lights_;
   Remade remade;
   remade.sight = !(objectsStand && cameraStands && scene.environment == environment_);
+  remade.lamps = !(keepsLight && objectsStand && lightsStand);
   remade.shadowMaps = !(keepsLight && objectsStand && shapes(scene.lights) == shapes(lights_));
   remade.beams = !(keepsLight && objectsStand && lightsStand && (cameraStands || !beamsFollowCamera));
 

@@ -10,6 +10,7 @@ namespace nephroid {
 
 struct Remade {
   bool sight = true;  // the surfaces that the camera sees, and what they show by no light
+  bool lamps = true;  // what the surfaces see of the lamps
   bool shadowMaps = true;
   bool beams = true;  // the technique's work that does not depend on a view
 };

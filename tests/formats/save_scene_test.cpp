@@ -223,12 +223,15 @@ TEST(SavedScene, SkiesAreSeenAsBefore) {
   EXPECT_EQ(savedScene(text, before, after).notSaved, std::vector<std::string>{"day sun"});
 }
 
-TEST(SavedScene, TellsThatAmbientLightDoesNotGoWithTheDefaultSky) {
+TEST(SavedScene, TellsWhatDoesNotGoWithTheDefaultSky) {
   const std::string text = "[camera]\nposition = [0, 1, 3]\n";
   const Scene before = sceneOf(text);
   Scene after = before;
   after.environment.ambient = vec3(1);
   EXPECT_EQ(savedScene(text, before, after).notSaved.size(), 1u);
+  EXPECT_EQ(savedScene(text, before, after).text, text);
+  after.environment.background = vec3(2);
+  EXPECT_EQ(savedScene(text, before, after).notSaved.size(), 2u);
   EXPECT_EQ(savedScene(text, before, after).text, text);
 }
 

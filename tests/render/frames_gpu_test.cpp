@@ -55,6 +55,8 @@ std::vector<Scene> moved() {
   next();
   next().camera.position.x += 0.3f;
   next().lights[0].intensity = vec3(60, 30, 20);
+  next().lights[0].intensity = vec3(0);
+  next().lights[0].intensity = vec3(30);
   next().lights[0].position.z -= 0.8f;
   next().lights[1].direction = normalize(vec3(-0.2f, -1, 0.1f));
   next().objects[2].placement = {vec3(-1, 0.6f, 0.2f), glm::angleAxis(1.0f, vec3(0, 1, 0)), 1.3f};
@@ -88,6 +90,20 @@ TEST_F(Frames, ShowWhatMoves) {
     EXPECT_EQ(keeping.draw(scenes.back()), Kept(scenes.back(), technique, false).draw(scenes.back()))
         << technique;
   }
+}
+
+// A lamp before a wall, which shadows nothing, and then behind it.
+TEST_F(Frames, ShowShadowsWhereThereWereNone) {
+  Scene before = room();
+  before.objects.resize(2);
+  before.objects[1] = {"wall", 0, 0, {vec3(0, 1, -1), glm::angleAxis(1.57f, vec3(1, 0, 0))}, std::nullopt};
+  before.lights.resize(1);
+  before.lights[0].position = {0, 2, 1};
+  Scene after = before;
+  after.lights[0].position = {0, 2, -2.5f};
+  Kept keeping(before, defaultTechnique(), true);
+  keeping.draw(before);
+  EXPECT_EQ(keeping.draw(after), Kept(after, defaultTechnique(), false).draw(after));
 }
 
 // What stands still takes no pass.

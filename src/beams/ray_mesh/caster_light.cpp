@@ -49,7 +49,7 @@ vec3 allThree(vec2 weights) {
 // So many that the casters' own triangles are followed from them in seconds.
 uint32_t mostPartsOfSkies(const Scene& scene, float error) {
   constexpr float kMostTriangles = 1e6f, kErrorOfMost = 0.01f;
-  constexpr float kFewestParts = 16, kMostParts = 1e6f;
+  constexpr float kFewestParts = 16, kMostParts = 4096;
   std::size_t triangles = 1;
   for (const Object& object : scene.objects)
     if (scene.isCaster(object)) triangles += scene.meshOf(object).triangles.size();
@@ -99,7 +99,7 @@ LightOntoCasters lightOntoCasters(const Scene& scene, const RayScene& rays, floa
   };
   for (uint32_t index = 0; index < scene.lights.size(); ++index) {
     const Light& lamp = scene.lights[index];
-    const bool isSky = lamp.type == LightType::sky, isSeenAsItIs = isSky || !hasSize(lamp);
+    const bool isSky = lamp.type == LightType::sky;
     std::vector<LampCell> same;  // for all casters
     if (isSky && lamp.hasGivenSamples) {
       same = skyCells(lamp, index, lamp.sky);
@@ -107,17 +107,17 @@ LightOntoCasters lightOntoCasters(const Scene& scene, const RayScene& rays, floa
       same = skyCells(lamp, index, skies.partsOf(scene.skies[lamp.skyMap], error, mostSkyParts));
       if (same.size() == mostSkyParts) onto.fewSkyParts = mostSkyParts;
     }
-    if (!isSky && isSeenAsItIs)
+    if (!isSky && !hasSize(lamp))
       for (const Emitter& emitter : emittersOf(lamp, index)) same.push_back({emitter, {}});
     const auto forAll = settled(std::move(same));
     for (uint32_t object = 0; object < scene.objects.size(); ++object) {
       if (!scene.isCaster(scene.objects[object])) continue;
+      for (const auto& [cell, around] : forAll) add(object, cell, around);
+      if (isSky || !hasSize(lamp)) continue;
       const Placement& placement = scene.objects[object].placement;
       const Sphere sphere = boundingSphere(scene.meshOf(scene.objects[object]));
-      for (const auto& [cell, around] : isSeenAsItIs
-                                            ? forAll
-                                            : settled(lampCells(lamp, index, placement.point(sphere.center),
-                                                                placement.scale * sphere.radius, error)))
+      for (const auto& [cell, around] : settled(lampCells(lamp, index, placement.point(sphere.center),
+                                                          placement.scale * sphere.radius, error)))
         add(object, cell, around);
     }
   }

@@ -8,23 +8,20 @@
 namespace nephroid {
 
 CasterScales::CasterScales(const Scene& scene, const RayMeshSettings& settings) : settings_(settings) {
-  for (const Object& object : scene.objects) {
-    Extent& extent = extents_.emplace_back();
-    if (!scene.isCaster(object)) continue;
-    const Box box = boundingBox(scene.meshOf(object));
-    extent = {object.placement.point(box.center()), object.placement.scale * box.diagonal()};
-  }
+  for (const Object& object : scene.objects)
+    sizes_.push_back(
+        scene.isCaster(object) ? object.placement.scale * boundingBox(scene.meshOf(object)).diagonal() : 0);
 }
 
 float CasterScales::pointAt(vec3 position, uint32_t caster) const {
-  const float most = std::max(settings_.mostDetailOfCaster * extents_[caster].size, settings_.detail);
+  const float most = std::max(settings_.mostDetailOfCaster * sizes_[caster], settings_.detail);
   return std::clamp(settings_.detailPerMeter * distance(position, settings_.eye), settings_.detail, most);
 }
 
 std::vector<float> CasterScales::fullFluxes(std::span<const CasterLight> lights,
                                             std::span<const double> fluxes) const {
   constexpr double kFewCasters = 8;
-  std::vector<double> ofCaster(extents_.size());
+  std::vector<double> ofCaster(sizes_.size());
   for (std::size_t i = 0; i < lights.size(); ++i) ofCaster[lights[i].object] += fluxes[i];
   const double all = std::accumulate(ofCaster.begin(), ofCaster.end(), 0.0);
   const auto lit = std::ranges::count_if(ofCaster, [](double flux) { return flux > 0; });

@@ -1,4 +1,5 @@
-// How large casters are, and how much of their light counts, where receivers' points see it.
+// What is large and what is small for the light of a caster: the detail that is seen where it lands, and the
+// light that a part of it is compared with.
 #pragma once
 
 #include <span>
@@ -23,12 +24,8 @@ class CasterScales {
   std::vector<float> fullFluxes(std::span<const CasterLight> lights, std::span<const double> fluxes) const;
 
  private:
-  struct Extent {
-    vec3 center{0};  // m
-    float size = 0;  // m, along the diagonal
-  };
   const RayMeshSettings& settings_;
-  std::vector<Extent> extents_;  // of the objects that are casters
+  std::vector<float> sizes_;  // m, of the objects: along the diagonal of a caster, 0 of others
 };
 
 }  // namespace nephroid

@@ -156,7 +156,7 @@ class LightSheets {
   std::span<const CasterLight> lights_;
   std::vector<std::optional<FacetRims>> rims_;  // of the meshes of casters
   std::size_t firstSheets_ = 0;
-  std::vector<float> fullFluxes_;  // lm, of the lights: what their sheets have to be compared with
+  std::vector<float> fullFluxes_;  // lm, of the lights, as in CasterScales
   SheetMemory& memory_;
   std::vector<NewCorner>& pending_;
   std::vector<uint32_t>& firstOfCorner_;  // node; kNone until it is settled

@@ -11,13 +11,13 @@ namespace {
 
 constexpr int kMostHalvings = 4;  // of a side, to where paths part
 constexpr uint8_t kMostCuts = 7;  // of a sheet, before it is parted along straight lines
-// Of the incident flux, times the error: sheets that carry more are cut before they are parted along straight
+// Of the full flux, times the error: sheets that carry more are cut before they are parted along straight
 // lines; and those that carry less are given to their corners.
 constexpr float kHeavy = 1e-2f, kLight = 3e-4f;
 // Where light is chaotic: after so many boundaries, and so many times as far apart as it began.
 constexpr uint8_t kFirstChaotic = 3;
 constexpr float kSpreadOfChaos = 1.6f;
-// Of the incident flux, times the error, and over the number of beams: sheets that carry more are cut before
+// Of the full flux, times the error, and over the number of beams: sheets that carry more are cut before
 // they become chaotic.
 constexpr float kHeavyAhead = 1e-3f, kBeamsAhead = 8;
 // Beams that a sheet of a caster's own triangle becomes, about.

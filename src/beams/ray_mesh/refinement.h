@@ -72,7 +72,7 @@ class Refinement {
   float litArea_ = 0;           // m2
   double litPoints_ = 0;        // the same, in receivers' points
   double mean_ = 0;             // lm/m2, of the points
-  uint64_t mostBeams_ = 0;
+  uint64_t mostBeams_ = 0;      // those of the settings, or more where casters have many triangles
   double allowed_ = 0;          // as allowedSquares
   std::vector<double> errors_;  // squared, times the points that have them
 };

@@ -10,7 +10,7 @@ namespace {
 // A branch that carries no more of the light that fed it is left out, as far as the error allows.
 constexpr float kWeakBranch = 0.02f;
 constexpr double kLeftOut = 0.07;  // of the error
-// Of the incident flux, times the error: less than this is not followed sheet by sheet.
+// Of the full flux, times the error: less than this is not followed sheet by sheet.
 constexpr float kLeastCarried = 2e-4f;
 // Of light that is trapped there is no end: after so many boundaries kLeastCarried doubles with each
 // kPartOfDoubling of the memory that paths take beyond kFreePart.

@@ -119,7 +119,6 @@ struct SeenLamps::Look {
   uint32_t index;  // of the lamp
   const ViewPoints& points;
   SampleOfMany sample;
-  uint32_t layers;  // the most points of a pixel
   bool asksMemory;
 
   // Calls `work` with each point number `layer` of a pixel in a tile, the pixel, and its place in the tile.
@@ -182,22 +181,21 @@ void SeenLamps::resize(uvec2 picture) {
 
 void SeenLamps::forget() {
   samples_ = 0;
-  seen_.clear();
 }
 
 void SeenLamps::look(const RayScene& rays, std::span<const ShadowedLamp> lamps, const ViewPoints& points,
                      const SampleOfMany& sample) {
-  uint32_t layers = 1;
-  for (const uvec2 range : points.ranges) layers = std::max(layers, range.y);
   const std::size_t memories = points.ranges.empty() ? 1 : kRemembered + 1;
   parts_.resize(lamps.size());
   seen_.resize(lamps.size());
   for (uint32_t i = 0; i < lamps.size(); ++i) {
     if (lamps[i].boxes.empty()) continue;
     parts_[i].assign(points.positions.size(), 255);
-    for (std::vector<uint8_t>* states : {&seen_[i].before, &seen_[i].now})
-      states->resize(memories * picture_.x * picture_.y, 0);
-    lookAt({rays, lamps[i], i, points, sample, layers, samples_ >= kAskedSamples});
+    Memory& memory = seen_[i];
+    if (samples_ == 0) memory.before.clear();
+    memory.before.resize(memories * picture_.x * picture_.y, 0);
+    memory.now = memory.before;
+    lookAt({rays, lamps[i], i, points, sample, samples_ >= kAskedSamples});
   }
   ++samples_;
 }
@@ -240,10 +238,7 @@ bool SeenLamps::isSure(const TileStates& around) {
 // The pixels of a tile, each of which has its own point, saw this and see it still.
 void SeenLamps::keep(const Look& look, uvec2 tile, uint8_t state) {
   const uvec2 low = kPixelsAlongTile * tile, high = glm::min(low + kPixelsAlongTile, look.points.size);
-  Memory& memory = seen_[look.index];
   for (uint32_t y = low.y; y < high.y; ++y) {
-    const std::size_t row = memoryAt(look.points.corner + uvec2(low.x, y), 0);
-    std::copy_n(&memory.before[row], high.x - low.x, &memory.now[row]);
     std::fill_n(&parts_[look.index][std::size_t(y) * look.points.size.x + low.x], high.x - low.x,
                 state == kAll ? uint8_t(255) : uint8_t(0));
   }
@@ -260,8 +255,6 @@ void SeenLamps::lookFirst(const Look& look, uvec2 tile, uint32_t layer) {
   look.forPoints(tile, layer, [&](uint32_t point, uvec2 pixel, uvec2 inTile) {
     const std::size_t place = memoryAt(pixel, layer);
     const uint8_t known = around[inTile.y][inTile.x];
-    // Those after the ones that are remembered each are remembered together.
-    memory.now[place] = layer > kRemembered ? memory.now[place] : memory.before[place];
     if (known == kAll || known == kNothing) {
       parts[point] = known == kAll ? 255 : 0;
     } else if (look.points.positions[point].a > 0) {

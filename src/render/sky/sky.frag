@@ -51,7 +51,8 @@ void main() {
       toward = reflectDirection(normalize(position.xyz - constants.eye),
                                 normalize(texelFetch(casterNormal, pixel, 0).xyz));
     width = constants.spacing * max(length(dFdx(toward)), length(dFdy(toward)));
-    width = clamp(width, 0, kWidestLook);
+    // Beside pixels without a caster there is no difference to take.
+    if (!(width <= kWidestLook)) width = kWidestLook;
     if (position.a != float(constants.number) || texelFetch(receiverPosition, pixel, 0).a > 0) discard;
   }
   skyLight = vec4(skyLuminance(SkyView(constants.levels), constants.sight, toward, width), 0);
